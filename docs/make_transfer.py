@@ -134,7 +134,7 @@ def ablation_table(reports: dict[str, dict[str, Any]]) -> list[str]:
     if not reports:
         return ["Not run."]
     first = next(iter(reports.values()))
-    corpora = [Path(test["corpus"]).name for test in first["tests"] if test["imported"] and _has_faults(test)]
+    corpora = [Path(test["corpus"]).name for test in first["tests"] if test["imported"] and has_faults(test)]
     head = ["learned from", "model", *corpora, "false alarms", "race in noise", "AUC in noise", "simulated"]
     lines = ["| " + " | ".join(head) + " |", "|---" * len(head) + "|"]
     for name, report in reports.items():
@@ -192,7 +192,7 @@ def learners_alarms(report: dict[str, Any], models: list[str], imported: bool) -
     return f"{span} of {sum(test[models[0]]['healthy'] for test in tests)}"
 
 
-def _has_faults(test: dict[str, Any]) -> bool:
+def has_faults(test: dict[str, Any]) -> bool:
     return bool(test["locations"]["outer"] + test["locations"]["inner"])
 
 

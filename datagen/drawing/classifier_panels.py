@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -137,12 +137,16 @@ def has_reliability(test: CorpusScores) -> bool:
     return bool(test.locations["none"]) and any(scores.calibration for scores in test.models.values())
 
 
-def draw_reliability(axes: Axes, test: CorpusScores) -> None:
-    """Share of spalls against the probability predicted."""
+def reliability_curves(test: CorpusScores) -> dict[str, dict[str, list[float]] | None]:
+    """The reliability of every model by name; None of one that gives no probability."""
+    return {name: said.calibration.reliability if said.calibration else None for name, said in test.models.items()}
+
+
+def draw_reliability(axes: Axes, curves: Mapping[str, dict[str, list[float]] | None]) -> None:
+    """Share of spalls against the probability predicted, of every model that has a curve."""
     axes.plot([0, 1], [0, 1], color=GREY, linewidth=0.7)
-    for place, (name, scores) in enumerate(test.models.items()):
-        if scores.calibration:
-            curve = scores.calibration.reliability
+    for place, (name, curve) in enumerate(curves.items()):
+        if curve:
             axes.plot(curve["predicted"], curve["observed"], "o-", color=colour(place), markersize=3, label=name)
     axes.legend(loc="best")
     axes.set_xlabel("predicted probability of a spall")
@@ -156,11 +160,15 @@ def differing(test: CorpusScores) -> list[str]:
     return [quantity for quantity in AGAINST if any(len(table.get(quantity, [])) > 1 for table in tables)]
 
 
-def draw_against(axes: Axes, test: CorpusScores, quantity: str) -> None:
+def accuracies_against(test: CorpusScores, quantity: str) -> dict[str, list[dict[str, float]]]:
+    """The accuracy of every model by name against one of AGAINST."""
+    return {name: scores.accuracy_against.get(quantity, []) for name, scores in test.models.items()}
+
+
+def draw_against(axes: Axes, tables: Mapping[str, list[dict[str, float]]], quantity: str) -> None:
     """Accuracy over fault records against one of AGAINST, in bins of equally many records, with intervals."""
-    for place, (name, scores) in enumerate(test.models.items()):
-        table = scores.accuracy_against.get(quantity, [])
-        size = 3.0 + 1.5 * (len(test.models) - 1 - place)  # what lies below another still shows
+    for place, (name, table) in enumerate(tables.items()):
+        size = 3.0 + 1.5 * (len(tables) - 1 - place)  # what lies below another still shows
         _draw_band(axes, [point["at"] for point in table], table, "accuracy", colour(place), name, size)
     word, label = AGAINST[quantity]
     axes.set(xlabel=label, ylabel="share of faults called right", ylim=SCORE_ENDS)

@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 
 from datagen.counts import counted
 from datagen.drawing.classifier_panels import (
+    accuracies_against,
     differing,
     draw_against,
     draw_confusion,
@@ -23,6 +24,7 @@ from datagen.drawing.classifier_panels import (
     draw_scores,
     has_curve,
     has_reliability,
+    reliability_curves,
     say,
 )
 from datagen.drawing.style import GREY, INK, png_of, roomy
@@ -98,9 +100,9 @@ def _test_panels(test: CorpusResults) -> Iterator[Draw]:
     yield partial(draw_scores, test=scores)
     yield partial(draw_confusion, test=scores)
     if has_reliability(scores):
-        yield partial(draw_reliability, test=scores)
+        yield partial(draw_reliability, curves=reliability_curves(scores))
     for quantity in differing(scores):
-        yield partial(draw_against, test=scores, quantity=quantity)
+        yield partial(draw_against, tables=accuracies_against(scores, quantity), quantity=quantity)
     if test.noise:
         yield partial(draw_noise, test=test)
 

@@ -67,7 +67,8 @@ class _OpenFiles:
         for replaced in [other for other, held in self.files.items() if held.path == path and other != key]:
             self._close(replaced)
         if key not in self.files:
-            file = netCDF4.Dataset(path)
+            with _nothing_cached():
+                file = netCDF4.Dataset(path)
             file.set_auto_mask(False)
             self.files[key] = _OpenFile(file, path, state)
             if len(self.files) > OPEN_FILES:
@@ -99,6 +100,23 @@ class _OpenFiles:
 
     def _close(self, key: FileKey) -> None:
         self.files.pop(key).file.close()
+
+
+@contextmanager
+def _nothing_cached() -> Iterator[None]:
+    """Files opened in this block keep no chunks that they have read.
+
+    By default each signal of each open file keeps up to 64 MB of them, and all files together gigabytes; but a chunk is
+    a whole signal of a record, so that no part of it is left to be read.
+    """
+    import netCDF4
+
+    usual = netCDF4.get_chunk_cache()
+    netCDF4.set_chunk_cache(size=0)
+    try:
+        yield
+    finally:
+        netCDF4.set_chunk_cache(*usual)
 
 
 _open_files = _OpenFiles()

@@ -168,6 +168,16 @@ def test_a_file_that_is_being_read_stays_open_during_a_fork(tiny_corpus: Path) -
     shards.close()
 
 
+def test_an_open_file_keeps_no_chunks_and_other_files_as_many_as_ever(tiny_corpus: Path) -> None:
+    usual = netCDF4.get_chunk_cache()
+    assert usual[0] > 0
+    shards = OpenShards(tiny_corpus)
+    with shards.reading("shards/shard_000000.nc") as file:
+        assert file["acceleration"].get_var_chunk_cache()[0] == 0
+    shards.close()
+    assert netCDF4.get_chunk_cache() == usual
+
+
 def test_a_shard_that_was_made_again_is_opened_again(tiny_corpus: Path, tmp_path: Path) -> None:
     folder = tmp_path / "corpus"
     shutil.copytree(tiny_corpus, folder)

@@ -47,7 +47,6 @@ USUAL_SUBSTEPS: tuple[int, ...] = (1, 2, 4, 8)
 UNLOCATED_SUBSTEPS: tuple[int, ...] = (1, 2, 4, 8, 16)
 ACCURACIES: tuple[float, ...] = (1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 1e-5)
 TOLERANCES: tuple[float, ...] = (1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
-SCIPY_TOLERANCES: tuple[float, ...] = (1e-5, 1e-7)
 SCIPY_SOLVERS = ("RK45", "DOP853", "LSODA", "Radau")
 NUMBALSODA: Mapping[str, str] = {"LSODA": "lsoda", "DOP853": "dop853"}
 MOST_STEPS_A_SAMPLE = 100_000
@@ -99,7 +98,7 @@ def contestants(scene: Scene, quick: bool) -> list[Contestant]:
         if find_spec("numbalsoda"):
             found += [_numbalsoda(name, kind, tolerance) for name in NUMBALSODA for tolerance in TOLERANCES[kept]]
         solvers = SCIPY_SOLVERS[:2] if quick else SCIPY_SOLVERS
-        found += [_scipy(solver, kind, tolerance) for solver in solvers for tolerance in SCIPY_TOLERANCES[kept]]
+        found += [_scipy(solver, kind, tolerance) for solver in solvers for tolerance in TOLERANCES[kept]]
     return found
 
 

@@ -168,6 +168,8 @@ def selection(recipe: Recipe, limit: int | None, records: Sequence[int] | None) 
         for record in listed:
             recipe.require(record, "--records")
         return add_spans((), ((record, record + 1) for record in listed))
-    if limit is not None and limit < 1:
+    if limit is None:
+        return ((0, recipe.count),)
+    if limit < 1:
         raise BadInput(field="--limit", value=limit, allowed="1 or more")
-    return ((0, min(limit or recipe.count, recipe.count)),)
+    return ((0, min(index(limit), recipe.count)),)

@@ -65,6 +65,10 @@ def test_records_may_be_listed_in_numpys_numbers(tiny: Recipe) -> None:
     assert json.dumps(spans) == "[[2, 4], [7, 8]]"  # as the manifest keeps them
 
 
+def test_a_limit_may_be_one_of_numpys_numbers(tiny: Recipe) -> None:
+    assert json.dumps(selection(tiny, np.int64(3), None)) == "[[0, 3]]"  # as the manifest keeps them
+
+
 def test_an_empty_list_of_records_is_refused(tiny: Recipe) -> None:
     with pytest.raises(BadInput, match="--records"):
         selection(tiny, None, [])

@@ -128,6 +128,6 @@ def _made_again(parts: CorpusParts, count: int) -> dict[int, Remade]:
     if not count or not parts.records or parts.manifest.identity.model_hash != fingerprint():
         return {}
     ordered = sorted(parts.records)
-    places = np.unique(np.linspace(0, len(ordered) - 1, count).round().astype(int))
+    places = np.unique(np.linspace(0, len(ordered) - 1, min(count, len(ordered))).round().astype(int))
     with Corpus(parts.folder) as corpus:
         return {ordered[place]: remake_record(corpus, ordered[place]) for place in places}

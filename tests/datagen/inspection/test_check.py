@@ -54,6 +54,10 @@ def test_a_corpus_as_it_was_made_is_sound_and_its_scenarios_give_its_records_aga
     assert verdict.largest_difference == 0.0
 
 
+def test_no_more_records_are_made_again_than_there_are(tiny_corpus: Path) -> None:
+    assert check_corpus(tiny_corpus, remake=10**30).remade == tuple(range(14))
+
+
 def test_a_record_made_again_is_the_stored_one_where_forces_are_stored_too(tmp_path: Path) -> None:
     content = {
         "name": "forces",

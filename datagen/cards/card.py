@@ -170,5 +170,10 @@ def _table(heads: Sequence[str], rows: Iterable[Sequence[object]]) -> Iterable[s
     yield "| " + " | ".join(heads) + " |"
     yield "|" + "---|" * len(heads)
     for row in rows:
-        yield "| " + " | ".join(str(cell).replace("|", "\\|") for cell in row) + " |"
+        yield "| " + " | ".join(map(_cell, row)) + " |"
     yield ""
+
+
+def _cell(value: object) -> str:
+    """A value in one line, as a row of a table is: a citation may have several."""
+    return " ".join(str(value).split()).replace("|", "\\|")

@@ -6,6 +6,7 @@ import hashlib
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -65,6 +66,7 @@ class Identity:
         return asdict(self)
 
 
+@cache
 def format_hash() -> str:
     """Hash of the names, dimensions, types, units and meanings of all variables and labels, 16 hexadecimal digits."""
     rows = [FORMAT, *map(asdict, VARIABLES), *map(asdict, LABELS)]

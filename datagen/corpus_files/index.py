@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datagen.corpus_files.manifest import no_corpus
-from datagen.corpus_files.shard import Sidecar, shard_path
+from datagen.corpus_files.shard import LABEL_COLUMNS, Sidecar, shard_path
 from datagen.errors import BadInput, at_line
 from datagen.files.atomic import opened_atomically
 from labels.schema import LABELS
@@ -24,7 +24,6 @@ if TYPE_CHECKING:
 
 INDEX = "index.csv"
 PLACE_COLUMNS = ("shard", "position")
-LABEL_COLUMNS = tuple(column for label in LABELS for column in label.columns)
 COLUMN_TYPES = {column: label.dtype for label in LABELS for column in label.columns}
 PLACE_TYPES = {"shard": "str", "position": "int64"}
 SHARD_NAME = r"shards/shard_\d{6,}\.nc"

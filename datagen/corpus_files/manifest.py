@@ -117,7 +117,7 @@ def read_manifest(folder: Path) -> Manifest:
         manifest = Manifest(
             name=text(found["name"]),
             identity=row(Identity, found["identity"]),
-            recipe=dict(found["recipe"]),
+            recipe=_recipe(found["recipe"], text(found["origin"])),
             recipe_records=whole(found["recipe_records"]),
             asked=_spans(found["asked"], whole(found["recipe_records"])),
             made_with={text(what): text(version) for what, version in found["made_with"].items()},
@@ -155,6 +155,14 @@ def no_corpus(folder: Path, lacking: str) -> BadInput:
         f"this folder has no {lacking}, so it is not a corpus, or its making was interrupted or is not done yet",
         str(folder),
     )
+
+
+def _recipe(found: dict[str, Any], origin: str) -> dict[str, Any]:
+    """The recipe, or what recordings of that `origin` have in its place, their SPEC with its files; what reading JSON
+    raises for any other."""
+    if origin not in (SIMULATED, IMPORTED):
+        raise ValueError("another origin")
+    return dict(found) | ({"spec": dict(found["spec"])} if origin == IMPORTED else {})
 
 
 def _spans(found: list[Any], records: int) -> tuple[Span, ...]:

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from datagen.corpus_files.format import Identity, content_hash
+from datagen.corpus_files.format import Identity, content_hash, format_hash
 from datagen.corpus_files.json_values import UNREADABLE, amount, row, text, whole
 from datagen.files.atomic import sweep_temporaries, write_atomically
 from datagen.files.netcdf import netcdf_bytes
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     import xarray
 
 SHARDS = "shards"
+LABEL_COLUMNS = tuple(column for label in LABELS for column in label.columns)
 
 
 @dataclass(frozen=True)
@@ -112,20 +113,32 @@ def read_sidecar(path: Path) -> Sidecar | None:
     """The sidecar at `path`, or None if it is absent or not one."""
     try:
         found = json.loads(path.read_text())
+        identity, records = row(Identity, found["identity"]), tuple(whole(record) for record in found["records"])
         return Sidecar(
             shard=whole(found["shard"]),
-            identity=row(Identity, found["identity"]),
-            records=tuple(whole(record) for record in found["records"]),
+            identity=identity,
+            records=records,
             failed=tuple(row(Failure, failure) for failure in found["failed"]),
             bytes=whole(found["bytes"]),
             sha256=text(found["sha256"]),
             content=text(found["content"]),
             seconds=amount(found["seconds"]),
-            labels={str(name): list(column) for name, column in found["labels"].items()},
+            labels=_labels(found["labels"], identity, len(records)),
             refused={str(what): row(Refused, counted) for what, counted in found["refused"].items()},
         )
     except UNREADABLE:
         return None
+
+
+def _labels(found: dict[str, Any], identity: Identity, records: int) -> dict[str, list[Any]]:
+    """The columns of labels, each of as many `records`; what reading JSON raises for any other."""
+    columns = {str(name): list(column) for name, column in found.items()}
+    if any(len(column) != records for column in columns.values()):
+        raise ValueError("columns of another length")
+    # The labels of another version of the format are others.
+    if records and identity.format_hash == format_hash() and columns.keys() != {*LABEL_COLUMNS}:
+        raise ValueError("other labels")
+    return columns
 
 
 def is_whole(folder: Path, sidecar: Sidecar) -> bool:

@@ -7,10 +7,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from datagen.corpus_files.format import content_hash
-from datagen.corpus_files.index import LABEL_COLUMNS
 from datagen.corpus_files.manifest import shard_entry
 from datagen.corpus_files.reading import READ_ERRORS, unencodable
-from datagen.corpus_files.shard import Sidecar, label_columns, shard_path
+from datagen.corpus_files.shard import LABEL_COLUMNS, Sidecar, label_columns, shard_path
 from datagen.files.digest import file_hash
 from datagen.files.netcdf import ONE_AT_A_TIME
 from datagen.inspection.conformity import violations

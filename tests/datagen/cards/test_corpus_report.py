@@ -21,7 +21,7 @@ from datagen.cards.origin_text import origin_text
 from datagen.cards.toml_text import toml_text
 from datagen.cards.vocabulary_table import vocabulary_table
 from datagen.corpus import Corpus
-from datagen.corpus_files.index import LABEL_COLUMNS
+from datagen.corpus_files.shard import LABEL_COLUMNS
 from datagen.errors import BadInput
 from datagen.recipes.recipe import Recipe, parse_recipe
 from datagen.recordings.importing import import_recordings
@@ -31,7 +31,9 @@ SPEC = """
 name = "two"
 title = "Two recordings"
 licence = "CC BY 4.0"
-citation = "A. Nybody, 2020"
+citation = '''
+A. Nybody,
+2020'''
 url = "https://example.org/two"
 [[recording]]
 name = "all"
@@ -172,7 +174,7 @@ def test_an_imported_corpus_has_a_card_with_its_terms_and_sources(measured: Path
     for sentence in (
         "recordings of real machines",
         "CC BY 4.0",
-        "A. Nybody, 2020",
+        "| citation | A. Nybody, 2020 |",  # the lines of a text are one in a table
         'files = "*.mat"',
         *kinds,
         "| records | 2 |",
@@ -180,7 +182,7 @@ def test_an_imported_corpus_has_a_card_with_its_terms_and_sources(measured: Path
         assert sentence in text
     assert "asked for" not in text
     document = json.loads((measured / "report" / METADATA).read_text())
-    assert (document["license"], document["citeAs"]) == ("CC BY 4.0", "A. Nybody, 2020")
+    assert (document["license"], document["citeAs"]) == ("CC BY 4.0", "A. Nybody,\n2020")
     rows = list(csv.DictReader((measured / "report" / VOCABULARY).read_text().splitlines()))
     assert [row["signal_id"] for row in rows] == ["bad b_y", "good a_y"]
     assert [row["fault_type"] for row in rows] == ["outer", "normal"]

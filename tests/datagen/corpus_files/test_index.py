@@ -12,8 +12,8 @@ import pandas
 import pytest
 
 from datagen.corpus_files.format import Identity, to_dataset
-from datagen.corpus_files.index import LABEL_COLUMNS, index_path, read_index, write_index
-from datagen.corpus_files.shard import Failure, Sidecar, finished_shards, write_shard
+from datagen.corpus_files.index import index_path, read_index, write_index
+from datagen.corpus_files.shard import LABEL_COLUMNS, Failure, Sidecar, finished_shards, write_shard
 from datagen.errors import BadInput
 from datagen.records.record import Record
 from labels.schema import LABELS

@@ -65,6 +65,7 @@ def test_a_manifest_that_lacks_a_key_or_holds_nonsense_says_so(key: str, copy: P
         ("identity", {"recipe_hash": 1, "model_hash": "", "format_hash": "", "program_hash": ""}),
         ("made_with", {"numpy": 2}),
         ("seconds", "long"),
+        ("origin", "invented"),
     ],
 )
 def test_numbers_and_texts_of_a_manifest_are_such(key: str, strange: object, copy: Path) -> None:
@@ -72,6 +73,13 @@ def test_numbers_and_texts_of_a_manifest_are_such(key: str, strange: object, cop
     manifest_path(copy).write_text(json.dumps(content | {key: strange}))
     for command in ("info", "check", "report"):
         assert f"{manifest_path(copy)}: not a manifest of a corpus" in told_by(command, copy)
+
+
+def test_a_manifest_of_recordings_has_their_spec(copy: Path) -> None:
+    content = json.loads(manifest_path(copy).read_text())
+    manifest_path(copy).write_text(json.dumps(content | {"origin": "imported"}))
+    for command in ("info", "check", "report"):
+        assert f'{manifest_path(copy)}: not a manifest of a corpus: it lacks "spec"' in told_by(command, copy)
 
 
 def test_a_manifest_nested_without_end_is_told(copy: Path) -> None:
@@ -88,6 +96,8 @@ def test_a_manifest_nested_without_end_is_told(copy: Path) -> None:
         {"bytes": True},
         {"seconds": -1.0},
         {"sha256": None},
+        {"labels": {}},
+        {"labels": {"record": [0]}},
     ],
 )
 def test_a_sidecar_that_is_none_is_damage(change: dict[str, object], copy: Path) -> None:

@@ -13,6 +13,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from datagen.distributions.distribution import Distribution, DistributionError, Value, number, object_schema
+from datagen.errors import value_text
 
 LONGEST_BLOCK = 1000
 
@@ -31,20 +32,22 @@ class Choice(Distribution):
         name = cls.keys[0]
         options, weights = table[name], table.get("weights", [])
         if not isinstance(options, list | tuple) or not options:
-            raise DistributionError(f"{name} = {options!r}: give a list with at least one value")
+            raise DistributionError(f"{name} = {value_text(options)}: give a list with at least one value")
         if any(isinstance(option, list | dict) for option in options):
-            raise DistributionError(f"{name} = {options!r}: give plain values")
+            raise DistributionError(f"{name} = {value_text(options)}: give plain values")
         if not isinstance(weights, list | tuple):
-            raise DistributionError(f"weights = {weights!r}: give a list of numbers")
+            raise DistributionError(f"weights = {value_text(weights)}: give a list of numbers")
         if weights and len(weights) != len(options):
             raise DistributionError(
                 f"{name} has {len(options)} values and weights {len(weights)}: give one weight each"
             )
         numbers = tuple(number("weights", weight) for weight in weights)
         if numbers and (min(numbers) < 0.0 or sum(numbers) <= 0.0):
-            raise DistributionError(f"weights = {list(weights)!r}: none may be below 0 and their sum must be above 0")
+            raise DistributionError(
+                f"weights = {value_text(weights)}: none may be below 0 and their sum must be above 0"
+            )
         if not math.isfinite(sum(numbers)):
-            raise DistributionError(f"weights = {list(weights)!r}: their sum is too large a number")
+            raise DistributionError(f"weights = {value_text(weights)}: their sum is too large a number")
         return cls(tuple(options), numbers)
 
     @classmethod
@@ -78,7 +81,7 @@ class Balanced(Choice):
 
     def __post_init__(self) -> None:
         if any(weight != round(weight) for weight in self.weights):
-            raise DistributionError(f"weights = {list(self.weights)!r}: balanced takes whole numbers")
+            raise DistributionError(f"weights = {value_text(self.weights)}: balanced takes whole numbers")
         if self.block > LONGEST_BLOCK:
             raise DistributionError(f"weights add up to {self.block}: balanced takes at most {LONGEST_BLOCK}")
 

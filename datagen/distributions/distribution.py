@@ -8,6 +8,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
+from datagen.errors import value_text
+
 Value = float | int | str | bool
 
 
@@ -81,14 +83,14 @@ class Fixed(Distribution):
 def number(name: str, value: object) -> float:
     """The finite number that an inline table has under `name`; raises DistributionError."""
     if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
-        raise DistributionError(f"{name} = {value!r}: give a finite number")
+        raise DistributionError(f"{name} = {value_text(value)}: give a finite number")
     return float(value)
 
 
 def pair(name: str, value: object) -> tuple[float, float]:
     """The two finite numbers that an inline table has under `name`; raises DistributionError."""
     if not isinstance(value, list | tuple) or len(value) != 2:
-        raise DistributionError(f"{name} = {value!r}: give a list of two numbers")
+        raise DistributionError(f"{name} = {value_text(value)}: give a list of two numbers")
     return number(name, value[0]), number(name, value[1])
 
 

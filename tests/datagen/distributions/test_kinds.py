@@ -128,6 +128,8 @@ def test_a_block_of_a_balanced_setting_holds_each_option_as_often_as_its_weight(
         ({"choice": [1, 2], "weights": [1e308, 1e308]}, "their sum is too large"),
         ({"choice": [1, 2], "weights": 3}, "a list of numbers"),
         ({"balanced": ["a", "b"], "weights": [0.5, 1]}, "whole numbers"),
+        ({"uniform": [0] * 1000}, r"^uniform = \[(0, ?)+\.\.\.: give a list of two numbers"),
+        ({"normal": [True, {"a": 1}]}, "^normal = true: give a finite number"),
         ({"balanced": ["a", "b"], "weights": [1, 1000]}, "add up to 1001: balanced takes at most 1000"),
         ({"balanced": ["a", "b"], "weight": [1, 2]}, 'did you mean "weights"'),
         ({"unifrom": [1, 2]}, 'did you mean "uniform"'),

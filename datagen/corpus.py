@@ -11,6 +11,7 @@ simulated from and `dataset` everything; of many records `to_numpy` gives a vari
 from __future__ import annotations
 
 import json
+from collections import Counter
 from collections.abc import Iterable, Iterator
 from functools import cached_property
 from numbers import Integral
@@ -215,7 +216,7 @@ class Corpus:
         table = self.labels
         record = table["record"].to_numpy()
         parted = StratifiedGroupKFold(count, shuffle=True, random_state=seed)
-        folds = parted.split(record, table[stratify].astype(str), groups=table["bearing_id"])
+        folds = parted.split(record, _as_words(table[stratify]), groups=table["bearing_id"])
         return ((record[train], record[test]) for train, test in folds)
 
     def _require_folds(self, count: int, stratify: str) -> None:
@@ -226,13 +227,18 @@ class Corpus:
             problem = "no such label" if stratify not in table else "this label takes other values with every record"
             raise BadInput(problem, str(self.folder), "stratify", stratify, ", ".join(known))
         bearings = table["bearing_id"].nunique()
-        most = min(bearings, int(table[stratify].astype(str).value_counts().max()) if len(table) else 0)
+        most = min(bearings, max(Counter(_as_words(table[stratify])).values(), default=0))
         if isinstance(count, int | np.integer) and 2 <= count <= most:
             return
         limit = f"of no {stratify} are there more than {most} records" if most < bearings else "each fold tests its own"
         allowed = f"a whole number from 2 to {most}" if most > 1 else "none"
         bearings_text = f"its records are of {bearings} bearings" if bearings != 1 else "its records are of one bearing"
         raise BadInput(f"{bearings_text}, and {limit}", str(self.folder), "count", count, allowed)
+
+
+def _as_words(column: pandas.Series) -> list[str]:
+    """The values of a label; what is unknown is a word like any other (of NaN pandas makes none)."""
+    return list(map(str, column))
 
 
 def _has_decimals(column: pandas.Series) -> bool:

@@ -219,6 +219,13 @@ def test_folds_that_cannot_be_are_refused_with_what_can(options: tuple[Any, ...]
     assert message in str(caught.value)
 
 
+@pytest.mark.parametrize("values", [[1.0, np.nan] * 7, [np.nan] * 14, np.array([True, np.nan] * 7, dtype=object)])
+def test_folds_may_be_alike_in_a_label_that_is_unknown_of_some_records_or_all(values: Any, corpus: Corpus) -> None:
+    partly_known = Corpus(corpus.folder)
+    partly_known.labels["spalls"] = values
+    assert sorted(record for _, test in partly_known.folds(3, "spalls") for record in test) == list(range(14))
+
+
 def test_as_many_folds_as_bearings_leave_one_out(corpus: Corpus) -> None:
     assert len(list(corpus.folds(corpus.labels["bearing_id"].nunique(), "rate_hz"))) == 10
 

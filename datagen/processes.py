@@ -12,6 +12,7 @@ from contextlib import contextmanager
 from datagen.garbage import collect_seldom
 
 PARENT_POLL = 0.25
+MOST_WORKERS = 1024  # more are a slip of the finger, and would bring the machine to a halt
 # Bytes by which a worker may grow. loky takes 300 MB for a leak, warns of it and starts another worker, where psutil is
 # installed; but long records take more, and their arrays are kept for the next ones (datagen/freed_memory.py).
 GROWTH = 4 << 30

@@ -14,6 +14,7 @@ from datagen.commands.program import JsonFile, command, show_tables, write_json
 from datagen.commands.progress_display import show_steps
 from datagen.counts import counted
 from datagen.judging.stated_speed import SPEED_ERROR
+from datagen.processes import MOST_WORKERS
 from labels.interval import Interval
 from labels.schema import LOCATIONS
 
@@ -67,6 +68,7 @@ Workers = Annotated[
     Option(
         metavar="N",
         min=1,
+        max=MOST_WORKERS,
         help="Processes that compute features; few by default, as each holds a record in memory.",
     ),
 ]

@@ -9,6 +9,7 @@ import typer
 
 from datagen.commands.program import JsonFile, command, write_json
 from datagen.commands.progress_display import show_steps
+from datagen.processes import MOST_WORKERS
 
 if TYPE_CHECKING:
     import pandas
@@ -29,7 +30,12 @@ AsLearned = Annotated[
 ]
 Workers = Annotated[
     int,
-    typer.Option(metavar="N", min=1, help="Processes that compute features; few by default, each holds a record."),
+    typer.Option(
+        metavar="N",
+        min=1,
+        max=MOST_WORKERS,
+        help="Processes that compute features; few by default, each holds a record.",
+    ),
 ]
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import os
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -70,7 +71,7 @@ def command(
         @functools.wraps(function)
         def guarded(*args: Any, **options: Any) -> None:
             try:
-                _check_json(options["json_file"])
+                _check_json(**options)
                 with terminable():
                     function(*args, **options)
                 sys.stdout.flush()
@@ -121,10 +122,16 @@ def _width(tables: list[Table]) -> int:
     return WIDTH + max(longest - USUAL_NAME, 0)
 
 
-def _check_json(path: Path | None) -> None:
-    """Refuse a file of results that cannot be written, before any work is done."""
-    if path is not None:
-        require_file(path, "--json")
+def _check_json(json_file: Path | None, **others: Any) -> None:
+    """Refuse a file of results that cannot be written, or that one of the `others` names too and that would be lost,
+    before any work is done."""
+    if json_file is None:
+        return
+    require_file(json_file, "--json")
+    known = {os.path.realpath(path) for path in others.values() if isinstance(path, Path)}
+    if os.path.realpath(json_file) in known and (json_file.is_file() or not json_file.exists()):
+        problem = "the results would replace what another option or argument names"
+        raise BadInput(problem, field="--json", value=str(json_file), allowed="a file of its own")
 
 
 def write_json(path: Path | None, result: Any) -> None:

@@ -11,6 +11,7 @@ from datagen.commands.program import CorpusFolder, JsonFile, command, show_table
 from datagen.commands.progress_display import show_steps
 from datagen.counts import counted
 from datagen.files.places import require_results_folder
+from datagen.processes import MOST_WORKERS
 
 if TYPE_CHECKING:
     from datagen.sizing.size_scores import SizeScores
@@ -31,7 +32,12 @@ KnownSizes = Annotated[
 ]
 Workers = Annotated[
     int,
-    typer.Option(metavar="N", min=1, help="Processes; one by default, as each further one loads the estimator again."),
+    typer.Option(
+        metavar="N",
+        min=1,
+        max=MOST_WORKERS,
+        help="Processes; one by default, as each further one loads the estimator again.",
+    ),
 ]
 OutFolder = Annotated[
     Path | None, typer.Option("--out", metavar="DIR", help="Folder for report, table and, with truth, picture.")

@@ -10,10 +10,9 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from datagen.errors import BadInput
-from datagen.processes import processes
+from datagen.processes import MOST_WORKERS, processes
 
 BACKENDS = ("loky", "dask")
-MOST_WORKERS = 1024  # more are a slip of the finger, and would bring the machine to a halt
 SCHEDULER_PATIENCE = 5.0  # s
 
 

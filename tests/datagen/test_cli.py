@@ -129,6 +129,9 @@ def test_the_catalogue_gives_every_number_with_its_source(tmp_path: Path) -> Non
         (("generate", "RECIPE", "--out", "OUT", "--records", "99"), "0 to 13"),
         (("generate", "RECIPE", "--out", "OUT", "--workers", "0"), "--workers = 0"),
         (("generate", "RECIPE", "--out", "OUT", "--backend", "ray"), "loky, dask"),
+        (("features", "RECIPE", "--out", "OUT", "--workers", "9999"), "a whole number from 1 to 1024"),
+        (("size", "RECIPE", "--workers", "9999"), "a whole number from 1 to 1024"),
+        (("classify", "--train", "RECIPE", "--workers", "9999"), "a whole number from 1 to 1024"),
         (("generate", "nowhere.toml", "--out", "OUT"), "nowhere.toml"),
         (("generate", "RECIPE", "--out", "OUT", "--limt", "3"), "--limit"),
         (("check", "OUT"), "no such file or folder, and no dataset of that name"),
@@ -258,6 +261,20 @@ def test_results_that_cannot_be_written_are_bad_input(tiny_corpus: Path, tmp_pat
     code, _, message = run("info", tiny_corpus, "--json", tmp_path / "no" / "such.json")
     assert code == 2
     assert "--json" in message
+
+
+def test_results_do_not_replace_what_another_option_or_argument_names(tiny_recipe: Path, tmp_path: Path) -> None:
+    link = tmp_path / "link.json"
+    link.symlink_to(tiny_recipe)
+    before = tiny_recipe.read_text()
+    for given in (tiny_recipe, link):
+        code, _, message = run("check", tiny_recipe, "--json", given)
+        assert code == 2
+        assert f'--json = "{given}": the results would replace what another option or argument names' in message
+    assert tiny_recipe.read_text() == before
+    assert run("schema", "--out", tmp_path / "s.json", "--json", tmp_path / "s.json").exit_code == 2
+    assert not (tmp_path / "s.json").exists()
+    assert run("schema", "--out", os.devnull, "--json", os.devnull).exit_code == 0
 
 
 def test_json_of_results_has_null_where_a_number_is_not_finite() -> None:

@@ -11,6 +11,7 @@ closed.
 
 from __future__ import annotations
 
+import shutil
 import threading
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -18,11 +19,12 @@ from functools import cache
 from importlib.util import find_spec
 from itertools import product
 from pathlib import Path
-from tempfile import TemporaryDirectory
+from tempfile import TemporaryDirectory, gettempdir
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from datagen.counts import bytes_text
 from datagen.errors import BadInput
 from datagen.files.chunk import chunk_bytes
 from datagen.files.time_stamps import clear_time_stamps
@@ -53,7 +55,8 @@ def check_compression(compression: str) -> None:
 
 
 def netcdf_bytes(dataset: xarray.Dataset, compression: str) -> bytes | bytearray:
-    """The bytes of a netCDF-4 file of `dataset`; raises BadInput for a compression that is not offered.
+    """The bytes of a netCDF-4 file of `dataset`; raises BadInput for a compression that is not offered, and where no
+    temporary file can be written.
 
     Nothing in them says when they were made. They are whole before any is written where it is to stay: a file that
     netCDF fills in place and that is cut short opens cleanly and holds NaN. Other programs may add variables to the
@@ -127,29 +130,52 @@ def _as_stored(variable: xarray.Variable) -> _Stored:
 
 
 def _laid_out(stored: dict[str, _Stored], attributes: dict[str, Any], compression: str, with_values: bool) -> bytearray:
-    """A netCDF file of all dimensions, variables and attributes, and perhaps the values; without time stamps."""
-    import netCDF4
+    """A netCDF file of all dimensions, variables and attributes, and perhaps the values; without time stamps.
 
+    Raises BadInput if it cannot be laid out, as where there is no room for temporary files.
+    """
     # On the disk: what netCDF lays out in memory lacks the order of creation without which it writes to no file again.
-    with TemporaryDirectory(prefix="spallgen-") as folder:
-        path = Path(folder) / "shard.nc"
-        file = netCDF4.Dataset(path, mode="w", format="NETCDF4")
-        try:
-            file.setncatts(attributes)
-            sizes = {dim: size for one in stored.values() for dim, size in zip(one.dims, one.values.shape, strict=True)}
-            for dim, size in sizes.items():
-                file.createDimension(dim, size)
-            for name, one in stored.items():
-                target = _create(file, name, one, compression)
-                target.setncatts(one.attributes)
-                if with_values and one.values.size:
-                    target[...] = one.values
-        finally:
-            # Left open, it would be closed by whichever thread the collector runs in.
-            file.close()
-        image = bytearray(path.read_bytes())
+    try:
+        with TemporaryDirectory(prefix="spallgen-") as folder:
+            path = Path(folder) / "shard.nc"
+            _lay_out(path, stored, attributes, compression, with_values)
+            image = bytearray(path.read_bytes())
+    except (OSError, RuntimeError) as problem:  # netCDF calls a full disk an HDF error, or a lack of permission
+        raise _no_temporary_file(problem) from None
     clear_time_stamps(image)
     return image
+
+
+def _no_temporary_file(problem: Exception) -> BadInput:
+    """The error of a file that cannot be laid out in the folder of temporary files."""
+    try:
+        folder = gettempdir()
+        free = f", in which {bytes_text(shutil.disk_usage(folder).free)} are free"
+    except OSError:  # there is none
+        folder, free = "", ""
+    said = f"a file cannot be laid out in this folder of temporary files{free} ({problem})"
+    return BadInput(said, folder, "TMPDIR", allowed="a folder with room for a shard")
+
+
+def _lay_out(
+    path: Path, stored: dict[str, _Stored], attributes: dict[str, Any], compression: str, with_values: bool
+) -> None:
+    import netCDF4
+
+    file = netCDF4.Dataset(path, mode="w", format="NETCDF4")
+    try:
+        file.setncatts(attributes)
+        sizes = {dim: size for one in stored.values() for dim, size in zip(one.dims, one.values.shape, strict=True)}
+        for dim, size in sizes.items():
+            file.createDimension(dim, size)
+        for name, one in stored.items():
+            target = _create(file, name, one, compression)
+            target.setncatts(one.attributes)
+            if with_values and one.values.size:
+                target[...] = one.values
+    finally:
+        # Left open, it would be closed by whichever thread the collector runs in.
+        file.close()
 
 
 def _create(file: netCDF4.Dataset, name: str, stored: _Stored, compression: str) -> Any:

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from datagen.corpus_files.format import Identity, to_dataset
 from datagen.corpus_files.shard import Failure, Sidecar, write_shard
+from datagen.errors import BadInput
 from datagen.files.atomic import NO_SPACE
 from datagen.freed_memory import keep_freed_memory
 from datagen.progress import Say
@@ -24,7 +25,7 @@ from physics.outcome import SimulationFailed
 
 @dataclass(frozen=True)
 class ShardRow:
-    """How making a `shard` (its number) ended: `error` is a traceback if it failed, else ""."""
+    """How making a `shard` (its number) ended: `error` is a sentence or a traceback if it failed, else ""."""
 
     shard: int
     error: str = ""
@@ -58,6 +59,8 @@ def make_shard(recipe: Recipe, folder: Path, planned: PlannedShard, identity: Id
     try:
         load_kernels()
         return _make_shard(recipe, folder, planned, identity)
+    except BadInput as problem:  # such as no room for temporary files
+        return ShardRow(planned.number, str(problem))
     except Exception as problem:
         if isinstance(problem, OSError) and problem.errno in NO_SPACE:
             raise

@@ -14,6 +14,7 @@ import pytest
 import xarray
 
 from datagen.corpus_files.format import content_hash, to_dataset
+from datagen.errors import BadInput
 from datagen.files import netcdf
 from datagen.files.chunk import checksum, chunk_bytes, deflated, shuffled
 from datagen.files.netcdf import COMPRESSIONS, netcdf_bytes
@@ -33,6 +34,23 @@ def both(dataset: xarray.Dataset, compression: str, folder: Path, monkeypatch: p
     monkeypatch.setattr(netcdf, "has_fast_chunks", lambda: False)
     theirs.write_bytes(netcdf_bytes(dataset, compression))
     return ours, theirs
+
+
+def test_a_lack_of_room_for_temporary_files_is_told_with_their_folder(
+    dataset: xarray.Dataset, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(*_: object, **__: object) -> None:
+        raise RuntimeError("NetCDF: HDF error")  # as netCDF has it on a full disk
+
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    with monkeypatch.context() as patched:
+        patched.setattr(netCDF4, "Dataset", full)
+        with pytest.raises(BadInput, match=rf"^{tmp_path}: TMPDIR: .* are free \(NetCDF: HDF error\); allowed: "):
+            netcdf_bytes(dataset, "zlib")
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path / "none"))
+    with pytest.raises(BadInput, match=r"TMPDIR: .*No such file or directory"):
+        netcdf_bytes(dataset, "zlib")
+    assert not list(tmp_path.iterdir())
 
 
 @pytest.mark.parametrize("compression", COMPRESSIONS)

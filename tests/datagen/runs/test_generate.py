@@ -420,6 +420,15 @@ def test_an_unforeseen_error_costs_its_shard_only_and_is_tried_again(
     assert not (tmp_path / "out" / "failed.jsonl").exists()
 
 
+def test_records_that_lack_room_for_temporary_files_are_told_so_in_one_sentence(
+    tiny: Recipe, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path / "none"))
+    run = generate(tiny, tmp_path / "out", limit=2, engine=ALONE)
+    assert (run.made, {failure.reason.count("\n") for failure in run.failed}) == (0, {0})
+    assert "TMPDIR: a file cannot be laid out in this folder of temporary files" in run.failed[0].reason
+
+
 def test_records_of_an_earlier_file_are_not_called_lost_when_making_the_shard_again_goes_wrong(
     tiny: Recipe, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-from datagen.corpus_files.format import Identity, to_dataset
+from datagen.corpus_files.format import SIMULATED_ATTRIBUTES, Identity, to_dataset
 from datagen.corpus_files.shard import Failure, Sidecar, write_shard
 from datagen.errors import BadInput
 from datagen.files.atomic import NO_SPACE
@@ -79,8 +79,7 @@ def _make_shard(recipe: Recipe, folder: Path, planned: PlannedShard, identity: I
             records.append(make_record(scenario, planned.stored))
         except SimulationFailed as problem:
             failed.append(Failure(index, str(problem)))
-    title = {"title": recipe.title or recipe.name, "id": recipe.name, **identity.to_dict()}
-    dataset = to_dataset(records, title) if records else None
+    dataset = to_dataset(records, _attributes(recipe, identity)) if records else None
     sidecar = Sidecar(
         shard=planned.number,
         identity=identity,
@@ -90,3 +89,13 @@ def _make_shard(recipe: Recipe, folder: Path, planned: PlannedShard, identity: I
     )
     write_shard(folder, sidecar, dataset, recipe.store.compression)
     return ShardRow(planned.number)
+
+
+def _attributes(recipe: Recipe, identity: Identity) -> dict[str, str]:
+    """What a shard says of the recipe that it comes from, besides what all shards of simulated records say."""
+    about = {"title": recipe.title or recipe.name, "id": recipe.name, **identity.to_dict()}
+    if recipe.licence:
+        about["license"] = recipe.licence
+    if recipe.citation:
+        about["references"] = f"{SIMULATED_ATTRIBUTES['references']}; {recipe.citation}"
+    return about

@@ -19,6 +19,7 @@ from typing import Any
 import joblib
 import numba
 import pytest
+import xarray
 
 import datagen.corpus_files.index
 import datagen.corpus_files.manifest
@@ -47,6 +48,17 @@ def test_a_corpus_holds_every_record_once_with_manifest_and_index(tiny_corpus: P
     assert list(read_index(tiny_corpus)["record"]) == list(range(14))
     assert sorted(record for sidecar in finished_shards(tiny_corpus) for record in sidecar.records) == list(range(14))
     assert not (tiny_corpus / "failed.jsonl").exists()
+
+
+def test_a_shard_alone_says_under_which_terms_it_is_and_how_to_cite_it(tiny: Recipe, tmp_path: Path) -> None:
+    stated = tiny.model_copy(update={"licence": "CC BY 4.0", "citation": "A. Nybody, 2020"})
+    for recipe, name in ((tiny, "silent"), (stated, "stated")):
+        generate(recipe, tmp_path / name, limit=1, engine=ALONE)
+    with xarray.open_dataset(shard_path(tmp_path / "silent", 0)) as shard:
+        assert "license" not in shard.attrs
+        model = shard.attrs["references"]
+    with xarray.open_dataset(shard_path(tmp_path / "stated", 0)) as shard:
+        assert (shard.attrs["license"], shard.attrs["references"]) == ("CC BY 4.0", f"{model}; A. Nybody, 2020")
 
 
 def test_two_workers_give_the_arrays_that_one_gives(
@@ -198,7 +210,7 @@ def test_the_refusal_says_what_the_folder_holds(tiny: Recipe, copy: Path) -> Non
     with pytest.raises(BadInput, match="the corpus tiny in this folder was begun"):
         generate(Recipe.model_validate(tiny.model_dump(mode="json") | {"name": "other"}), copy, engine=ALONE)
     content = json.loads((copy / "manifest.json").read_text())
-    (copy / "manifest.json").write_text(json.dumps(content | {"origin": "imported"}))
+    (copy / "manifest.json").write_text(json.dumps(content | {"origin": "imported", "recipe": {"spec": {}}}))
     with pytest.raises(BadInput, match="this folder holds imported recordings"):
         generate(tiny, copy, engine=ALONE)
 

@@ -40,7 +40,7 @@ Folders = Annotated[list[Path] | None, Option("--test", metavar="DIR", help="Cor
 Save = Annotated[
     Path | None, Option("--save", metavar="FILE", help="Save what was learned; --train FILE takes it later.")
 ]
-More = Annotated[list[Path] | None, Argument(metavar="[DIR]...", help="More corpora to score on.")]
+More = Annotated[list[Path] | None, Argument(metavar="DIR", help="More corpora to score on.")]
 # The options that stand for the fields of Learning and Scoring, by their names.
 OPTIONS = {
     "learner": Option(help="Model to train: forest, logistic, boosting or all."),

@@ -26,6 +26,7 @@ from datagen.corpus_files.index import read_index
 from datagen.corpus_files.manifest import Manifest, read_manifest
 from datagen.corpus_files.open_shards import OpenShards
 from datagen.errors import BadInput
+from datagen.files.places import from_home
 
 if TYPE_CHECKING:
     import netCDF4
@@ -45,7 +46,7 @@ class Corpus:
     """
 
     def __init__(self, folder: str | Path) -> None:
-        self.folder = Path(folder).expanduser()
+        self.folder = from_home(folder)
         self._root = self.folder.absolute()  # the caller may change its directory
         self.manifest: Manifest = read_manifest(self.folder)
         self._shards = OpenShards(self._root)

@@ -15,7 +15,7 @@ from datagen.commands.termination import Terminated, terminable
 from datagen.commands.usage import Program
 from datagen.errors import BadInput
 from datagen.exits import BAD_INPUT, FAILED, INTERRUPTED, TERMINATED, print_error
-from datagen.files.places import require_file
+from datagen.files.places import from_home, require_file
 from physics.outcome import SimulationFailed
 
 if TYPE_CHECKING:
@@ -71,6 +71,7 @@ def command(
         @functools.wraps(function)
         def guarded(*args: Any, **options: Any) -> None:
             try:
+                options = {name: _from_home(value) for name, value in options.items()}
                 _check_json(**options)
                 with terminable():
                     function(*args, **options)
@@ -120,6 +121,13 @@ def _width(tables: list[Table]) -> int:
         column.no_wrap = True
         longest = max([longest, *(len(str(cell)) for cell in column.cells)])
     return WIDTH + max(longest - USUAL_NAME, 0)
+
+
+def _from_home(value: Any) -> Any:
+    """The value of an option or argument; paths begin at somebody's home if they begin with ~."""
+    if isinstance(value, list):
+        return [_from_home(part) for part in value]
+    return from_home(value) if isinstance(value, Path) else value
 
 
 def _check_json(json_file: Path | None, **others: Any) -> None:

@@ -1,4 +1,5 @@
-"""Where results are to go, refused before any work if they cannot be put there; nothing is left there by asking."""
+"""Where files are and results are to go, refused before any work if they cannot be put there; nothing is left there by
+asking."""
 
 from __future__ import annotations
 
@@ -12,6 +13,12 @@ from datagen.errors import BadInput
 OUT = "--out"
 MANIFEST = "manifest.json"
 FAILURES = "failed.jsonl"
+
+
+def from_home(path: str | Path) -> Path:
+    """The path, from somebody's home on if it begins with ~ and there is such a person: a shell leaves that to the
+    program in --out=~/corpus."""
+    return Path(os.path.expanduser(path))
 
 
 def require_folder(folder: Path, field: str = OUT) -> None:

@@ -13,7 +13,7 @@ from datagen.corpus_files.index import write_index
 from datagen.corpus_files.manifest import Manifest, write_manifest
 from datagen.corpus_files.shard import Sidecar, finished_shards, write_shard
 from datagen.errors import BadInput
-from datagen.files.places import require_folder
+from datagen.files.places import from_home, require_folder
 from datagen.progress import Say, Throttle, ignore
 from datagen.recordings.dataset import imported_dataset
 from datagen.recordings.import_plan import ImportPlan, PlannedRecord
@@ -62,7 +62,7 @@ def import_recordings(spec: Spec, folder: str | Path, root: str | Path | None = 
     takes long. Raises BadInput for anything wrong in the SPEC or the files, before `folder` is touched.
     """
     with remembered_files():
-        return _import(spec, Path(folder), Path(root) if root else _stated_root(spec), _seldom(step))
+        return _import(spec, from_home(folder), from_home(root) if root else _stated_root(spec), _seldom(step))
 
 
 def _seldom(step: Say) -> Say:

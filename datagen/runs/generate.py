@@ -13,7 +13,7 @@ from datagen.corpus_files.shard import shards_folder
 from datagen.errors import BadInput
 from datagen.files.atomic import locked
 from datagen.files.netcdf import check_compression
-from datagen.files.places import OUT
+from datagen.files.places import OUT, from_home
 from datagen.progress import SILENT, Listener
 from datagen.recipes.recipe import Recipe
 from datagen.runs.earlier import earlier_runs
@@ -41,7 +41,7 @@ def generate(
     KeyboardInterrupt leaves a usable corpus of the shards finished so far. Processes that make records, this one if it
     is the only worker, keep the memory of freed arrays (datagen.freed_memory).
     """
-    began, folder = time.monotonic(), Path(folder)
+    began, folder = time.monotonic(), from_home(folder)
     asked = selection(recipe, limit, records)
     check_compression(recipe.store.compression)
     identity = corpus_identity(recipe)

@@ -263,6 +263,18 @@ def test_results_that_cannot_be_written_are_bad_input(tiny_corpus: Path, tmp_pat
     assert "--json" in message
 
 
+def test_a_path_may_begin_with_the_sign_for_ones_home_behind_an_equals_sign_too(
+    tiny_corpus: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "here").mkdir()
+    monkeypatch.chdir(tmp_path / "here")
+    monkeypatch.setenv("HOME", str(tmp_path))
+    (tmp_path / "corpus").symlink_to(tiny_corpus)
+    assert run("features", "~/corpus", "--out=~/f.csv", "--json=~/f.json").exit_code == 0
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["corpus", "f.csv", "f.json", "here"]
+    assert list((tmp_path / "here").iterdir()) == []
+
+
 def test_results_do_not_replace_what_another_option_or_argument_names(tiny_recipe: Path, tmp_path: Path) -> None:
     link = tmp_path / "link.json"
     link.symlink_to(tiny_recipe)

@@ -324,6 +324,8 @@ def test_a_folder_may_be_named_by_the_sign_for_ones_home(corpus: Corpus, monkeyp
     monkeypatch.setenv("HOME", str(corpus.folder.parent))
     with Corpus(f"~/{corpus.folder.name}") as same:
         assert len(same) == len(corpus)
+    with pytest.raises(BadInput, match="no such folder"):
+        Corpus("~nobody-of-this-name/corpus")
 
 
 def test_everything_of_a_record_is_its_own_and_may_be_closed_and_pickled(corpus: Corpus) -> None:

@@ -215,8 +215,9 @@ def test_the_refusal_says_what_the_folder_holds(tiny: Recipe, copy: Path) -> Non
         generate(tiny, copy, engine=ALONE)
 
 
-def test_the_folder_may_be_a_text(tiny: Recipe, tmp_path: Path) -> None:
-    assert generate(tiny, str(tmp_path / "out"), limit=1, engine=ALONE).made == 1
+def test_the_folder_may_be_a_text(tiny: Recipe, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("HOME", str(tmp_path))
+    assert generate(tiny, "~/out", limit=1, engine=ALONE).made == 1
     assert (tmp_path / "out" / "manifest.json").is_file()
 
 

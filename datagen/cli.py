@@ -51,8 +51,7 @@ def main() -> None:
     """
     collect_seldom()
     keep_freed_memory()
-    if sys.stdout is None:  # closed by whoever started the program
-        sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115
+    _open_what_was_closed()
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):  # of an encoding that may lack ≤ and its like
             stream.reconfigure(errors="replace")
@@ -62,12 +61,27 @@ def main() -> None:
         _write_out()
 
 
+def _open_what_was_closed() -> None:
+    """Let the standard streams that whoever started the program has closed lead nowhere.
+
+    Their numbers are taken, lest a file get one of them, and inherited: a worker without standard error ends at once.
+    """
+    for number in range(3):
+        try:
+            os.fstat(number)
+        except OSError:
+            os.set_inheritable(os.open(os.devnull, os.O_RDWR), True)
+    for name in ("stdout", "stderr"):
+        if getattr(sys, name) is None:
+            setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115
+
+
 def _write_out() -> None:
     """Flush standard output and error; ends the process if nobody reads them.
 
     What cannot be written is dropped: Python would try again as it exits, and complain.
     """
-    for stream in filter(None, (sys.stdout, sys.stderr)):  # None where it was closed from the beginning
+    for stream in (sys.stdout, sys.stderr):
         try:
             stream.flush()
         except OSError as problem:

@@ -48,6 +48,9 @@ class Program(TyperGroup):
                 yield
         except BrokenPipeError:
             raise typer.Exit(OUTPUT_CLOSED) from None
+        except OSError as problem:  # of help and version, as a command tells of its own
+            print_error(f"the output: {problem.strerror}")
+            raise typer.Exit(BAD_INPUT) from None
 
     @contextmanager
     def _readable(self) -> Iterator[None]:

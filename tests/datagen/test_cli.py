@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from command_line import run
 
+from datagen.corpus_files.index import read_index
 from datagen.files.plain import plain_json
 from datagen.versions import program_versions
 
@@ -352,3 +353,18 @@ def test_a_closed_output_ends_no_command() -> None:
         ["sh", "-c", '"$0" -m datagen catalog >&-', sys.executable], cwd=ROOT, capture_output=True, text=True
     )
     assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_nor_do_workers_end_where_all_standard_streams_are_closed(tiny_recipe: Path, tmp_path: Path) -> None:
+    given = '"$0" -m datagen generate "$1" --out "$2" --records 0,9 --workers 2 <&- >&- 2>&-'
+    done = subprocess.run(["sh", "-c", given, sys.executable, tiny_recipe, tmp_path / "out"], cwd=ROOT)
+    assert done.returncode == 0
+    assert list(read_index(tmp_path / "out")["record"]) == [0, 9]
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="this system has no /dev/full")
+@pytest.mark.parametrize("option", ["--help", "--version"])
+def test_help_that_cannot_be_written_is_told_in_one_line(option: str) -> None:
+    command = ["sh", "-c", '"$0" -m datagen "$1" >/dev/full', sys.executable, option]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (2, "error: the output: No space left on device\n")

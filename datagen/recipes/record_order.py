@@ -14,7 +14,8 @@ Size = tuple[int, int]
 
 
 class Place(NamedTuple):
-    """Where a record stands, all from 0: its part, its machine in the corpus; it in its part, its machine there."""
+    """Where a record stands, all from 0: its part; its machine in the corpus; it in its part; its machine there; it
+    among the records of its machine."""
 
     part: int
     machine: int

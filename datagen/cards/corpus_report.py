@@ -37,8 +37,8 @@ def write_report(folder: str | Path, out: str | Path | None = None) -> Report:
     """
     folder = Path(folder)
     out = folder / "report" if out is None else Path(out)
-    _check_folder(out)
     facts = corpus_facts(folder)
+    _check_folder(out)
     if not facts.info.records:
         raise BadInput("this corpus holds no records yet", str(folder))
     contents = _contents(folder, facts, out)

@@ -157,11 +157,13 @@ def longest_first(shards: Iterable[PlannedShard]) -> list[PlannedShard]:
 def selection(recipe: Recipe, limit: int | None, records: Sequence[int] | None) -> tuple[Span, ...]:
     """Spans [start, stop) of the records that a run is asked for: all, the first `limit`, or those listed.
 
-    Raises BadInput for a limit below 1, an empty list, a record that the recipe does not have, or both at once.
+    Raises BadInput for a limit below 1, an empty list, a mask, a record that the recipe does not have, or both at once.
     """
     if limit is not None and records is not None:
         raise BadInput("give only one of them: a limit or a list of records", field="--limit, --records")
     if records is not None:
+        if any(isinstance(record, bool) for record in records):
+            raise BadInput("this is a mask", field="--records", allowed="the indices of records")
         listed = [index(record) for record in records]
         if not listed:
             raise BadInput("no record is listed", field="--records")

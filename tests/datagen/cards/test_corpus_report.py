@@ -251,6 +251,8 @@ def test_the_command_writes_the_facts_as_json_and_refuses_a_folder_without_a_cor
     assert done.exit_code == 2
     assert "no manifest.json" in done.stderr
     assert not (tmp_path / "none").exists()
+    done = run("report", results)  # without --out
+    assert done.stderr == f"error: {results}: this is not a folder; allowed: the folder of a corpus\n"
 
 
 def test_the_spread_of_errors_is_told_by_quantiles_and_what_is_unknown_is_counted() -> None:

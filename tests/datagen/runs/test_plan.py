@@ -69,6 +69,11 @@ def test_a_limit_may_be_one_of_numpys_numbers(tiny: Recipe) -> None:
     assert json.dumps(selection(tiny, np.int64(3), None)) == "[[0, 3]]"  # as the manifest keeps them
 
 
+def test_a_mask_is_no_list_of_records(tiny: Recipe) -> None:
+    with pytest.raises(BadInput, match="--records: this is a mask; allowed: the indices of records"):
+        selection(tiny, None, [True, False, True])
+
+
 def test_an_empty_list_of_records_is_refused(tiny: Recipe) -> None:
     with pytest.raises(BadInput, match="--records"):
         selection(tiny, None, [])

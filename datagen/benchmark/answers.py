@@ -26,7 +26,7 @@ def class_probability(estimator: Any, table: Array, given: str = "") -> Array:
     """Probabilities (N, 5) of CLASSES from `predict_proba`, from `predict`, or from calling the estimator.
 
     A class that it never saw has 0. Raises BadInput, which names the estimator as the user has `given` it, for names
-    that are not classes, for a wrong shape, and for numbers that are not probabilities.
+    that are not classes or that `classes_` has twice, for a wrong shape, and for numbers that are not probabilities.
     """
     name = given or estimator_name(estimator)
     with user_code(name, "it failed to answer"):
@@ -34,12 +34,14 @@ def class_probability(estimator: Any, table: Array, given: str = "") -> Array:
     if len(said) != len(table) or said.ndim not in (1, 2):
         raise _refused(name, f"it answers with the shape {said.shape} to {len(table)} rows")
     if said.ndim == 1:
-        _require_classes(name, np.unique(said).tolist())
-        return np.asarray(said[:, None] == np.asarray(CLASSES)[None, :], dtype=np.float64)
-    _require_classes(name, names)
-    if said.shape[1] != len(names):
-        raise _refused(name, f"it answers with {said.shape[1]} columns for {len(names)} classes")
-    return _by_name(_probabilities(name, said), names)
+        words = _known_classes(name, said.tolist())
+        return np.asarray(np.array(words)[:, None] == np.asarray(CLASSES)[None, :], dtype=np.float64)
+    words = _known_classes(name, names)
+    if len(set(words)) < len(words):
+        raise _refused(name, "its classes_ name a class twice")
+    if said.shape[1] != len(words):
+        raise _refused(name, f"it answers with {said.shape[1]} columns for {len(words)} classes")
+    return _by_name(_probabilities(name, said), words)
 
 
 def _answer(estimator: Any, table: Array) -> tuple[NDArray[Any], list[Any]]:
@@ -50,10 +52,13 @@ def _answer(estimator: Any, table: Array) -> tuple[NDArray[Any], list[Any]]:
     return np.atleast_1d(np.asarray(said)), list(CLASSES)
 
 
-def _require_classes(name: str, names: list[Any]) -> None:
-    unknown = [str(said) for said in names if str(said) not in CLASSES]
+def _known_classes(name: str, said: list[Any]) -> list[str]:
+    """What was said as names of CLASSES; raises BadInput for anything else, whatever it is."""
+    words = [str(one) for one in said]
+    unknown = [word for word in dict.fromkeys(words) if word not in CLASSES]
     if unknown:
         raise _refused(name, f"it knows classes that are none of ours: {', '.join(unknown[:5])}")
+    return words
 
 
 def _probabilities(name: str, said: NDArray[Any]) -> Array:
@@ -67,10 +72,9 @@ def _probabilities(name: str, said: NDArray[Any]) -> Array:
     return np.clip(found, 0.0, 1.0)
 
 
-def _by_name(probability: Array, names: list[Any]) -> Array:
+def _by_name(probability: Array, names: list[str]) -> Array:
     found = np.zeros((len(probability), len(CLASSES)))
-    for column, name in enumerate(names):
-        found[:, CLASSES.index(str(name))] = probability[:, column]
+    found[:, [CLASSES.index(name) for name in names]] = probability
     return found
 
 

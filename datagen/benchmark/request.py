@@ -6,18 +6,22 @@ import math
 import os
 from dataclasses import fields
 from pathlib import Path
+from typing import Any
 
+from datagen.benchmark.answers import estimator_name
 from datagen.benchmark.impulse_training import NAME, ingredients_of
 from datagen.benchmark.options import FEATURES, WINDOWS, Learning, Options, Scoring
 from datagen.benchmark.plan import Benchmark
+from datagen.benchmark.predictions import FACTS
 from datagen.benchmark.trained import SAVE, TRAIN, is_saved
+from datagen.benchmark.verdicts import RULE
 from datagen.corpus import Corpus
 from datagen.corpus_files.manifest import manifest_path, no_corpus
 from datagen.errors import BadInput
 from datagen.files.places import require_file, require_results_folder
 from datagen.judging.scored_runs import no_log
 from datagen.judging.stated_speed import SPEED_ERROR
-from datagen.judging.user_code import load_user_code
+from datagen.judging.user_code import FIELD, load_user_code
 from labels.classifier.learners import LEARNERS
 
 INPUTS = (FEATURES, WINDOWS)
@@ -43,7 +47,7 @@ def benchmark_of(
     _require_learning(learning)
     _require_scoring(scoring)
     _require_use(train, tests, learning, learning_curve, save)
-    estimator = load_user_code(learning.estimator, ESTIMATOR_FORMS) if learning.estimator is not None else None
+    estimator = _own_estimator(learning.estimator) if learning.estimator is not None else None
     if scoring.levels and learning.takes_windows:
         problem = "noise is added where features are computed"
         raise BadInput(problem, "", "--noise-db", scoring.noise_db, "--input features")
@@ -62,6 +66,20 @@ def benchmark_of(
         workers=workers,
         save=save,
     )
+
+
+def _own_estimator(name: str) -> Any:
+    """The user's estimator called "module:name"; raises BadInput if it cannot be asked, or reports could not tell it
+    from what else they hold."""
+    found = load_user_code(name, ESTIMATOR_FORMS)
+    # What is fitted first may have its predict from then on.
+    if not (callable(found) or any(hasattr(found, method) for method in ("fit", "predict_proba", "predict"))):
+        raise BadInput("it can be neither fitted nor asked", field=FIELD, value=name, allowed=ESTIMATOR_FORMS)
+    shown = estimator_name(found)
+    if shown in (RULE, *FACTS):
+        problem = f'reports hold something else under the name "{shown}"'
+        raise BadInput(problem, field=FIELD, value=name, allowed="an estimator of another name")
+    return found
 
 
 def _require_learning(learning: Learning) -> None:

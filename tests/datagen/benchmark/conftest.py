@@ -47,6 +47,11 @@ def classify(tiny_corpus, other_corpus, tmp_path, monkeypatch):
         "    return np.full(len(table), 'line outer')\n"
         "def of_two(table, rate):\n"
         "    return None\n"
+        "def rule(table):\n"  # as another model and a column of facts are called in reports
+        "    return np.full(len(table), 'line outer')\n"
+        "def rejected(table):\n"
+        "    return np.full(len(table), 'line outer')\n"
+        "nothing = None\n"
     )
     monkeypatch.syspath_prepend(str(tmp_path))
     for module in ("own_estimators", "own_curves"):

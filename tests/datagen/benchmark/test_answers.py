@@ -1,5 +1,7 @@
 """Estimators of one's own: what they may answer, and what is refused."""
 
+from enum import Enum
+
 import numpy as np
 import pytest
 
@@ -77,6 +79,8 @@ def test_names_and_probabilities_of_a_function_are_taken_as_they_are():
         np.tile([1.4, -0.4, 0.0, 0.0, 0.0], (3, 1)),
         np.full((3, 5), np.nan),
         np.full((3, 5), "healthy"),
+        np.array(["healthy", None, "line outer"], dtype=object),  # of kinds that cannot be sorted
+        [None] * 3,
         None,
     ],
 )
@@ -94,3 +98,31 @@ def test_an_estimator_that_fails_or_knows_other_classes_is_refused_before_it_is_
         BadInput, match=r"failed to answer: ZeroDivisionError.*--estimator|--estimator.*ZeroDivisionError"
     ):
         class_probability(lambda table: 1 / 0, ROWS)
+
+
+class Doubled:
+    """One whose answers name a class in two columns, of which one would be lost."""
+
+    classes_ = ("healthy", "healthy", "line outer")
+
+    def predict_proba(self, X):
+        return np.tile([0.5, 0.3, 0.2], (len(X), 1))
+
+
+def test_a_class_in_two_columns_is_refused():
+    with pytest.raises(BadInput, match="its classes_ name a class twice"):
+        class_probability(Doubled(), ROWS)
+
+
+class Word(Enum):
+    """Names of classes that are no texts, but read like them."""
+
+    OUTER = "line outer"
+
+    def __str__(self):
+        return self.value
+
+
+def test_names_that_read_like_those_of_classes_are_taken_for_them():
+    found = class_probability(lambda table: [Word.OUTER] * len(table), ROWS)
+    assert found[:, CLASSES.index("line outer")].tolist() == [1.0] * 3

@@ -41,7 +41,7 @@ OF_ESTIMATE = {
     "candidates": "extents that give the same timing, rad: `extent`, then those whole ball spacings longer",
     "pass_period": "time between two ball passes as heard, s",
     "trust": "1 less the relative error to be expected of the lag, 0 to 1",
-    "event_times": "array (K, 2), s: both events of each pass that was heard",
+    "event_times": "array (K, 2), s: both events of each pass that was heard; others count as missed",
 }
 
 

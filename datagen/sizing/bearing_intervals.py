@@ -43,7 +43,11 @@ def interval_over_bearings(
 
 
 def mean_with_interval(values: list[float], records: list[ScoredRecord]) -> Interval:
-    """The mean of the `values` of these records and its interval; NaN without records."""
-    if not values:
+    """The mean of the `values` of these records and its interval, those left out that are no finite number, as where an
+    estimator left a field out; NaN if none is left."""
+    every = np.array(values, dtype=np.float64)
+    known = np.isfinite(every)
+    if not known.any():
         return Interval(math.nan, math.nan, math.nan)
-    return Interval(float(np.mean(values)), *interval_over_bearings(np.array(values), bearing_numbers(records)))
+    ends = interval_over_bearings(every[known], bearing_numbers(records)[known])
+    return Interval(float(every[known].mean()), *ends)

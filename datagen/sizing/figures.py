@@ -6,13 +6,11 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 
-import numpy as np
-
-from datagen.sizing.bearing_intervals import bearing_numbers, interval_over_bearings, mean_with_interval
+from datagen.sizing.bearing_intervals import mean_with_interval
 from datagen.sizing.record_errors import RULES, extent_error, lag_error, noise_level, noise_levels, noise_name, silent
 from datagen.sizing.scored_record import ScoredRecord
 from datagen.sizing.size_summary import Figure
-from labels.interval import Interval
+from labels.spall_size.size_estimate import Bounds
 
 # What the mean relative error of the lag and of the arc, by level of noise (dB), and the shares are to be.
 LAG_TARGETS = {math.inf: 0.05, 10.0: 0.10}
@@ -45,9 +43,10 @@ def figures_of(records: list[ScoredRecord], load_known: bool) -> list[Figure]:
     return figures
 
 
-def _holds(interval: tuple[float, float], true: float) -> float:
+def _holds(interval: Bounds, true: float) -> float:
+    """1 if an interval holds the true number, else 0; NaN if the estimator gave none."""
     low, high = interval
-    return float(low <= true <= high)
+    return math.nan if math.isnan(low) or math.isnan(high) else float(low <= true <= high)
 
 
 def _figure(
@@ -58,13 +57,9 @@ def _figure(
     *,
     at_least: bool = False,
 ) -> Figure:
-    values = np.array([value(record) for record in records])
-    kept = np.isfinite(values)
-    if not kept.any():
-        return Figure(name, mean_with_interval([], []), 0)
-    ends = interval_over_bearings(values[kept], bearing_numbers(records)[kept])
-    mean, count = Interval(float(values[kept].mean()), *ends), int(kept.sum())
-    if target is None:
+    values = [value(record) for record in records]
+    mean, count = mean_with_interval(values, records), sum(map(math.isfinite, values))
+    if target is None or not count:
         return Figure(name, mean, count)
     met = mean.value >= target if at_least else mean.value <= target
     return Figure(name, mean, count, f"{'≥' if at_least else '≤'} {target:g}", bool(met))

@@ -64,5 +64,6 @@ def mean_of(values: list[float]) -> float:
 
 
 def median_of(values: list[float]) -> float:
-    """Median of errors; NaN without any."""
-    return float(np.median(values)) if values else math.nan
+    """Median of errors, those left out that are unknown (NaN); NaN without any."""
+    known = [value for value in values if math.isfinite(value)]
+    return float(np.median(known)) if known else math.nan

@@ -57,11 +57,11 @@ def _against(estimate: object) -> str:
     for name in INTERVALS:
         if not _are_numbers(getattr(estimate, name), 2):
             return f"a SizeEstimate whose {name} is {_kind(getattr(estimate, name))} and no pair of numbers"
-    wrong = _impossible(estimate) if estimate.found else ""
-    if wrong:
-        return f"a SizeEstimate that is ESTIMATED, whose {wrong}"
     if not _are_numbers(estimate.candidates):
         return f"a SizeEstimate whose candidates are {_kind(estimate.candidates)} and not numbers"
+    wrong = _impossible(estimate) if estimate.found else _beside_none(estimate)
+    if wrong:
+        return f"a SizeEstimate that is {estimate.outcome.name}, whose {wrong}"
     times: Any = estimate.event_times
     if not isinstance(times, np.ndarray) or times.dtype.kind not in "iuf" or times.ndim != 2 or times.shape[1] != 2:
         return f"a SizeEstimate whose event_times are {_kind(times)} and no array of numbers (K, 2)"
@@ -76,9 +76,23 @@ def _impossible(estimate: SizeEstimate) -> str:
         return f"extent is {estimate.extent:g} rad and not above 0 and pi at most"
     if not 0.0 < estimate.extent_mm < math.inf:
         return f"extent_mm is {estimate.extent_mm:g} and not above 0"
-    if not 0.0 <= estimate.trust <= 1.0:
-        return f"trust is {estimate.trust:g} and not between 0 and 1"
-    return ""
+    if not (math.isnan(estimate.lag) or 0.0 < estimate.lag < math.inf):
+        return f"lag is {estimate.lag:g} s and not above 0"
+    if not all(0.0 < arc < math.inf for arc in estimate.candidates):
+        return f"candidates are {_kind(estimate.candidates)} and not all above 0"
+    return _untrue(estimate.trust)
+
+
+def _beside_none(estimate: SizeEstimate) -> str:
+    """What cannot stand beside an outcome that gives no size, in words; empty if nothing does."""
+    # A finite extent is what counts as an estimate.
+    return (
+        f"extent is {estimate.extent:g} rad and not nan" if math.isfinite(estimate.extent) else _untrue(estimate.trust)
+    )
+
+
+def _untrue(trust: float) -> str:
+    return "" if 0.0 <= trust <= 1.0 else f"trust is {trust:g} and not between 0 and 1"
 
 
 def _is_number(value: object) -> bool:

@@ -52,6 +52,21 @@ def test_the_rules_to_compare_with_have_their_own_errors(scored: Callable[..., S
         assert errors[f"arc error by rule: {rule}, 10 dB"] == pytest.approx(error, rel=1e-12)
 
 
+def test_what_an_estimator_leaves_out_is_not_scored(scored: Callable[..., ScoredRecord]) -> None:
+    unknown = {"lag": math.nan, "lag_interval": (math.nan, math.nan), "extent_interval": (math.nan, math.nan)}
+    wrong = {"lag": 0.0048, "lag_interval": (0.0045, 0.005)}  # of 0.004 s, which lies outside
+    summary = summarise([scored(answer=unknown), scored(answer=wrong)], True)
+    figures = {figure.name: (figure.mean.value, figure.count) for figure in summary.figures}
+    assert figures["90 % interval of the lag holds the truth"] == (0.0, 1)
+    assert figures["90 % interval of the arc holds the truth"] == (1.0, 1)
+    assert figures["lag error, 10 dB"] == (pytest.approx(0.2), 1)
+    (row,) = summary.by["race"]
+    assert (row.records, row.lag_error.value, row.lag_error_median) == (2, pytest.approx(0.2), pytest.approx(0.2))
+    (without,) = summarise([scored(answer=unknown)], True).by["race"]
+    assert math.isnan(without.lag_error.value)
+    assert math.isnan(without.lag_error_median)
+
+
 @pytest.mark.parametrize(("count", "judged"), [(19, {"too few to judge"}), (20, {"yes", "NO"})])
 def test_targets_are_judged_from_twenty_records_on(
     count: int, judged: set[str], scored: Callable[..., ScoredRecord]

@@ -42,6 +42,10 @@ WRONG = {
     "ESTIMATED, whose extent is 100 rad and not above 0 and pi at most": replace(GOOD, extent=100.0),
     "ESTIMATED, whose extent_mm is inf and not above 0": replace(GOOD, extent_mm=math.inf),
     "ESTIMATED, whose trust is 7 and not between 0 and 1": replace(GOOD, trust=7.0),
+    "ESTIMATED, whose lag is -0.001 s and not above 0": replace(GOOD, lag=-1e-3),
+    "ESTIMATED, whose candidates are tuple (0.1, nan) and not all above 0": replace(GOOD, candidates=(0.1, math.nan)),
+    "NO_PASSES, whose extent is 0.1 rad and not nan": SizeEstimate(SizeOutcome.NO_PASSES, "constant", extent=0.1),
+    "NO_PASSES, whose trust is 7 and not between 0 and 1": SizeEstimate(SizeOutcome.NO_PASSES, "constant", trust=7.0),
     "whose candidates are None and not numbers": replace(GOOD, candidates=None),
     "whose event_times are an array of shape (3,) and no array of numbers (K, 2)": replace(
         GOOD, event_times=np.zeros(3)

@@ -13,6 +13,7 @@ from scipy import fft
 from datagen.benchmark.rows import Rows
 from datagen.corpus import Corpus
 from datagen.progress import Count, ignore
+from labels.dead_sensor import is_dead
 from physics.arrays import Array
 
 WINDOW_SAMPLES = 4096
@@ -28,8 +29,9 @@ def common_rate(folders: Iterable[Path], bandwidth: float) -> float:
 def read_windows(folder: Path, records: NDArray[np.int64], rate: float, count: Count = ignore) -> Rows:
     """Windows (N, 4096) at `rate` (Hz), in m/s², of at most eight places of each axis of a record.
 
-    What the window is too long for is padded with silence. They lie in a temporary file, read as they are needed, so
-    that memory does not grow with the corpus. `count` is called with how many records are read.
+    An axis whose sensor is dead has none. What the window is too long for is padded with silence. They lie in a
+    temporary file, read as they are needed, so that memory does not grow with the corpus. `count` is called with how
+    many records are read.
     """
     owners: list[int] = []
     axes: list[int] = []
@@ -37,7 +39,7 @@ def read_windows(folder: Path, records: NDArray[np.int64], rate: float, count: C
         rates = corpus.labels.set_index("record")["rate_hz"]
         for done, record in enumerate(records.tolist(), start=1):
             for axis, signal in enumerate(np.asarray(corpus.waveform(record), dtype=np.float64).T):
-                if np.isfinite(signal).all():
+                if not is_dead(signal):
                     found = cut(resampled(signal, float(rates[record]), rate))
                     file.write(np.asarray(found, dtype=np.float32).tobytes())
                     owners += [record] * len(found)

@@ -22,3 +22,17 @@ def test_raw_windows_lie_in_a_file_and_are_those_of_the_records(tiny_corpus):
     np.testing.assert_allclose(found.table[: len(first)], first, rtol=1e-6, atol=1e-12)  # float32 in the file
     assert set(found.record.tolist()) == {record}
     assert found.axis.tolist() == np.repeat([0, 1], len(found) // 2).tolist()
+
+
+def test_an_axis_whose_sensor_is_dead_has_no_windows(tiny_corpus, monkeypatch):
+    heard = Corpus.waveform
+
+    def without_y(corpus, record):
+        return heard(corpus, record) * np.array([1.0, 0.0])
+
+    monkeypatch.setattr(Corpus, "waveform", without_y)
+    corpus = Corpus(tiny_corpus)
+    record, rate = int(corpus.labels["record"].iloc[0]), float(corpus.labels["rate_hz"].iloc[0])
+    found = read_windows(tiny_corpus, np.array([record]), rate)
+    assert set(found.axis.tolist()) == {0}
+    assert found.table.any(axis=1).all()

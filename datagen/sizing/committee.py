@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 
 from labels.spall_size.estimation.trees import Trees
 from physics.arrays import Array
+
+Places = NDArray[np.int64]
 
 FOLDS = 3
 
@@ -37,13 +39,18 @@ class Committee:
     ) -> Array:
         """Predictions (N,) for the rows of each of the `groups` (N,) by a fit to the `used` (N,) rows of the other
         groups."""
-        from sklearn.model_selection import GroupKFold
-
         predicted, weight = np.zeros(aim.size), np.ones(aim.size) if weight is None else weight
-        for fitted, others in GroupKFold(FOLDS).split(rows, groups=groups):
+        for fitted, others in folds(groups):
             fitted = fitted[used[fitted]]
             predicted[others] = self.fit(rows[fitted], aim[fitted], weight[fitted]).predict(rows[others])
         return predicted
+
+
+def folds(groups: NDArray[np.str_]) -> Iterator[tuple[Places, Places]]:
+    """FOLDS times the places of the rows to fit to, and of the others, in which all of some `groups` (N,) are."""
+    from sklearn.model_selection import GroupKFold
+
+    yield from GroupKFold(FOLDS).split(groups, groups=groups)
 
 
 def mean_of(members: list[Trees]) -> Trees:

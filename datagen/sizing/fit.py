@@ -24,7 +24,7 @@ from datagen.errors import BadInput
 from datagen.exits import BAD_INPUT, print_error
 from datagen.files.atomic import write_file
 from datagen.files.places import OUT, require_file
-from datagen.sizing.committee import FOLDS
+from datagen.sizing.committee import FOLDS, folds
 from datagen.sizing.cross_fit import CrossFit
 from datagen.sizing.fit_limits import most_doubt, reach
 from datagen.sizing.fit_stages import fit_doubt, fit_guess, fit_pair_score, fit_rank
@@ -104,6 +104,10 @@ def _require_enough(columns: TrialColumns) -> None:
         )
     if not np.isfinite(columns.lag[columns.as_stored]).any():
         raise BadInput("no record of the first corpus has events that are known, by which the reach is set")
+    learned_from = np.isfinite(columns.lag), columns.arc > 0.0, columns.decided
+    if not all(used[fitted].any() for fitted, _ in folds(columns.bearing) for used in learned_from):
+        problem = "too few bearings with events that are known: where some are left out, none is left to learn from"
+        raise BadInput(problem, allowed="corpora with spalls on more bearings")
 
 
 def _origin(corpora: Sequence[Path], made: list[Trial]) -> str:

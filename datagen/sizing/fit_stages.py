@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from datagen.sizing.committee import FOLDS, Committee
+from datagen.sizing.committee import Committee, folds
 from datagen.sizing.training_rows import Trial
 from datagen.sizing.trial_columns import TrialColumns
 from labels.spall_size.estimation.calibration import SMALLEST_SPREAD, Guess
@@ -53,10 +53,8 @@ class FittedScore:
 
 def fit_pair_score(made: list[Trial], bearing: Bearings) -> FittedScore:
     """The score of the pairs of the trials `made` (N,), which are of these bearings (N,)."""
-    from sklearn.model_selection import GroupKFold
-
     scores: dict[int, Array] = {}
-    for fitted, others in GroupKFold(FOLDS).split(bearing, groups=bearing):
+    for fitted, others in folds(bearing):
         trees = _pair_score([made[k] for k in fitted])
         scores |= {int(k): trees.predict(made[k].evidence.pairs.features) for k in others}
     return FittedScore(_pair_score(made), [scores[k] for k in range(len(made))])

@@ -103,6 +103,8 @@ def test_the_most_doubt_leaves_nearly_all_trials_without_events_unanswered() -> 
     [
         ({"bearing": np.array(["a", "a", "b", "b"])}, "bearings = 2: too few"),
         ({"true_lag": np.full(4, 20.0)}, "no record without events"),
+        ({"lag": np.array([20.0, np.nan, np.nan, np.nan])}, "too few bearings with events that are known"),
+        ({"arc": np.array([0.1, np.nan, np.nan, -0.1])}, "too few bearings with events that are known"),
         ({"typical": np.array([False, False, True, True]), "lag": np.array([20.0, 30.0, np.nan, np.nan])}, "reach"),
     ],
 )

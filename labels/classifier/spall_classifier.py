@@ -76,7 +76,8 @@ class SpallClassifier(ClassifierMixin, BaseEstimator):
         self.classes_ = np.array(CLASSES)
         faulty = y != HEALTHY
         with threadpool_limits(1):  # trees this small are fitted faster alone than by threads that wait for each other
-            self.spall_ = self._stage(SIGNS, DIVISIONS).fit(_spall_columns(X), faulty, groups, noisy)
+            spall = self._stage((HEALTHY, "spall"), SIGNS, DIVISIONS)
+            self.spall_ = spall.fit(_spall_columns(X), faulty, groups, noisy)
             self.alarm_ = fit_alarm(
                 self.spall_.held_out[~faulty],
                 X[~faulty],
@@ -88,11 +89,13 @@ class SpallClassifier(ClassifierMixin, BaseEstimator):
             faults, fault_groups, fault_noisy = X[faulty], groups[faulty], noisy[faulty]
             name = y[faulty].astype(str)
             inner = np.char.endswith(name, "inner")
-            self.race_ = self._stage().fit(_race_columns(faults), inner, fault_groups, fault_noisy)
+            race = self._stage(RACES)
+            self.race_ = race.fit(_race_columns(faults), inner, fault_groups, fault_noisy)
             extended = np.char.startswith(name, "extended")
             # Recipes without extended spalls (or without line spalls) leave nothing to ask in the third question.
             asked = extended.any() and not extended.all()
-            self.length_ = self._stage().fit(faults, extended, fault_groups, fault_noisy) if asked else None
+            length = self._stage(("line", "extended"))
+            self.length_ = length.fit(faults, extended, fault_groups, fault_noisy) if asked else None
             self.always_extended_ = bool(extended.all())
         return self
 
@@ -111,8 +114,8 @@ class SpallClassifier(ClassifierMixin, BaseEstimator):
         by_lines = self.alarm_.by_lines_alone(strengths(X))
         return called(probability, (1.0 - probability[:, 0] > self.alarm_.at(X)) | by_lines)
 
-    def _stage(self, signs: tuple[int, ...] | None = None, divisions: int = 1) -> Stage:
-        return Stage(learner(self.kind, self.seed, signs), self.seed, divisions)
+    def _stage(self, answers: tuple[str, str], signs: tuple[int, ...] | None = None, divisions: int = 1) -> Stage:
+        return Stage(learner(self.kind, self.seed, signs), self.seed, divisions, answers)
 
 
 def _race_columns(table: Array) -> Array:

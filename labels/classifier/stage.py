@@ -14,13 +14,17 @@ FOLDS = 5
 
 
 class Stage:
-    """A two-class learner with Platt's calibration on rows as they are, without noise added.
+    """A two-class learner with Platt's calibration on rows as they are, without noise added; `answers` name its answers
+    False and True in messages.
 
     `held_out` (N,) are its calibrated held-out probabilities, from the mean log odds of `repeats` divisions into folds.
     """
 
-    def __init__(self, estimator: Any, seed: int = 0, repeats: int = 1) -> None:
+    def __init__(
+        self, estimator: Any, seed: int = 0, repeats: int = 1, answers: tuple[str, str] = ("no", "yes")
+    ) -> None:
         self.estimator = estimator
+        self.answers = answers
         self.seed = seed
         self.repeats = repeats
 
@@ -40,12 +44,15 @@ class Stage:
         from sklearn.base import clone
         from sklearn.linear_model import LogisticRegression
 
-        folds = min(FOLDS, *(len(np.unique(groups[answer == side])) for side in (False, True)))
-        if folds < 2:
-            raise ValueError("each answer must be given by two virtual bearings or more")
+        given = {name: np.unique(groups[answer == side]).size for side, name in enumerate(self.answers)}
+        rarest = min(given, key=lambda name: given[name])
+        if given[rarest] < 2:
+            raise ValueError(f'"{rarest}" is on too few virtual bearings, {given[rarest]}; allowed: 2 or more')
+        folds = min(FOLDS, given[rarest])
         plain = np.ones(len(answer), dtype=bool) if noisy is None else ~noisy
         if np.unique(answer[plain]).size < 2:
-            raise ValueError("each answer must be given by records without added noise too")
+            missing = self.answers[int(not answer[plain].any())]
+            raise ValueError(f'"{missing}" is on no record without added noise; allowed: 1 or more')
         level = [logit(self._held_out(table, answer, groups, folds, self.seed + r)) for r in range(self.repeats)]
         raw = probability_of(np.mean(level, axis=0))
         of_plain, share = answer[plain], answer[plain].mean()

@@ -133,8 +133,18 @@ def test_noise_in_which_nothing_is_seen_does_not_blur_what_is_said_without_it():
         wrong.append(calibration_error(truth != "healthy", probability, weights))
     # 400 rows set a line of two coefficients to about a tenth; calibrated on noise too, it is far too careful.
     assert wrong[1] < 0.05 < 0.1 < wrong[0]
-    with pytest.raises(ValueError, match="without added noise"):
-        Stage(learner("logistic")).fit(table, classes != "healthy", groups, classes == "healthy")
+    for missing, hidden in (("no", classes == "healthy"), ("yes", classes != "healthy")):
+        with pytest.raises(ValueError, match=f'"{missing}" is on no record without added noise'):
+            Stage(learner("logistic")).fit(table, classes != "healthy", groups, hidden)
+
+
+@pytest.mark.parametrize("rare", ["healthy", "inner", "extended"])
+def test_an_answer_on_one_bearing_alone_is_refused_by_name(rare):
+    table, classes, groups = made_up(100, 1)
+    of_it = np.flatnonzero(np.char.find(classes, rare) >= 0)
+    kept = np.setdiff1d(np.arange(100), of_it[1:])
+    with pytest.raises(ValueError, match=f'"{rare}" is on too few virtual bearings, 1; allowed: 2 or more'):
+        SpallClassifier("logistic").fit(table[kept], classes[kept], groups[kept])
 
 
 def test_corpora_without_extended_spalls_leave_that_question_out():

@@ -193,8 +193,10 @@ def train_user_estimator(training: TrainingSet, estimator: Any, takes_windows: b
     """
     name = estimator_name(estimator)
     if hasattr(estimator, "fit"):
+        table, classes = training.rows.table, training.classes
         with user_code(given or name, "it failed to learn"):
-            estimator.fit(training.rows.table, training.classes)
+            # Scaled in place, rows would be others where they are looked at next; raw windows cannot be written to.
+            estimator.fit(table if takes_windows else table.copy(), classes.copy())
     model = Model(name, estimator, EVEN, takes_windows, given)
     if len(training.rows):
         model.probability(training.rows.table[:ROWS_TO_TRY])

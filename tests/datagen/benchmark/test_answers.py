@@ -42,7 +42,7 @@ class Named(Guesser):
 
 def training():
     classes = np.array(["line outer", "healthy", "line outer"])
-    rows = Rows(ROWS, np.arange(3), np.zeros(3, dtype=np.int64), np.zeros(3, dtype=bool))
+    rows = Rows(ROWS.copy(), np.arange(3), np.zeros(3, dtype=np.int64), np.zeros(3, dtype=bool))
     return TrainingSet(rows, classes, np.array(["a", "b", "c"]))
 
 
@@ -126,3 +126,24 @@ class Word(Enum):
 def test_names_that_read_like_those_of_classes_are_taken_for_them():
     found = class_probability(lambda table: [Word.OUTER] * len(table), ROWS)
     assert found[:, CLASSES.index("line outer")].tolist() == [1.0] * 3
+
+
+class InPlace(Guesser):
+    """One that overwrites all that it is given."""
+
+    def fit(self, X, y):
+        super().fit(X, y)
+        X[:], y[:] = 7.0, "healthy"
+        return self
+
+    def predict_proba(self, X):
+        X[:] = 7.0
+        return super().predict_proba(X)
+
+
+def test_what_an_estimator_overwrites_is_a_copy():
+    given = training()
+    before = given.rows.table.copy(), given.classes.copy()
+    train_user_estimator(given, InPlace(), False).probability(given.rows.table)
+    np.testing.assert_array_equal(given.rows.table, before[0])
+    assert given.classes.tolist() == before[1].tolist()

@@ -106,3 +106,15 @@ def test_rows_in_noise_are_learned_from_and_not_judged():
     judged = [table for table in Listens.asked if len(table) > ROWS_TO_TRY]
     assert [len(table) for table in judged] == [15 * 2 * 2] * 4  # a quarter of the bearings
     assert not any(table[:, noise].any() for table in judged)
+
+
+def test_no_bearing_is_learned_from_and_judged():
+    whole = made_up(60)
+    number = FEATURE_NAMES.index("kurtosis")
+    whole.rows.table[:, number] = whole.rows.record // 2
+    Listens.learned.clear()
+    Listens.asked.clear()
+    learning_curve(whole, Learning(), estimator=Listens())
+    (judged,) = {frozenset(table[:, number]) for table in Listens.asked if len(table) > ROWS_TO_TRY}
+    assert [len(set(table[:, number])) for table in Listens.learned] == [10, 11, 22, 45]
+    assert all(judged.isdisjoint(table[:, number]) for table in Listens.learned)

@@ -85,6 +85,9 @@ def _own_estimator(name: str) -> Any:
 def _require_learning(learning: Learning) -> None:
     if learning.learner not in (*LEARNERS, "all"):
         raise BadInput(field="--learner", value=learning.learner, allowed=", ".join((*LEARNERS, "all")))
+    if learning.estimator is not None and learning.learner != Learning().learner:
+        problem = "an estimator of your own learns in place of ours"
+        raise BadInput(problem, field="--learner", value=learning.learner, allowed="without --estimator")
     if learning.input not in INPUTS:
         raise BadInput(field="--input", value=learning.input, allowed=", ".join(INPUTS))
     if learning.takes_windows and not learning.estimator:

@@ -122,6 +122,7 @@ def test_ones_own_code_is_named_in_messages_as_it_was_given(classify):
         ("--noise-db", "inf"),
         ("--bandwidth", "nan"),
         ("--estimator", ""),
+        ("--estimator", "own_estimators:always_outer", "--learner", "forest"),
         ("--estimator", "own_estimators:nothing"),
         ("--estimator", "own_estimators:rule"),
         ("--estimator", "own_estimators:rejected"),

@@ -2,9 +2,12 @@
 
 import shutil
 
+import pytest
+
 from datagen.benchmark.machines import learned_machines, machines, share_machines, unseen_records
 from datagen.benchmark.training import training_records
 from datagen.corpus import Corpus
+from datagen.errors import BadInput
 
 
 def renamed(folder, name):
@@ -28,6 +31,19 @@ def test_a_corpus_learned_from_and_tested_on_is_divided_by_virtual_bearing(divid
     assert len(unseen_records(Corpus(divided), learned_machines(Corpus(divided), few["record"].to_numpy()))) == len(
         test
     )
+
+
+def test_a_split_test_that_was_learned_from_is_not_scored(divided):
+    corpus = Corpus(divided)
+    every = training_records(divided, also_tested=False)["record"].to_numpy()
+    with pytest.raises(BadInput, match="all its virtual bearings"):
+        unseen_records(corpus, learned_machines(corpus, every))
+    labels = corpus.labels
+    tests = sorted(set(labels.loc[labels["split"] == "test", "bearing_id"]))
+    learned = labels.loc[(labels["split"] != "test") | (labels["bearing_id"] == tests[0]), "record"].to_numpy()
+    scored = unseen_records(corpus, learned_machines(corpus, learned))
+    assert sorted(set(scored["bearing_id"])) == tests[1:]
+    assert len(tests) > 1
 
 
 def test_a_copy_under_any_name_is_divided_like_the_corpus_itself(divided):

@@ -94,6 +94,11 @@ def test_ten_draws_of_the_same_noise_tell_no_more_than_one():
         assert astuple(getattr(pooled, name)) == pytest.approx(astuple(getattr(once, name)))
         differences = [astuple(getattr(scores.minus_rule, name))[1:] for scores in (pooled, once)]
         assert differences[0] == pytest.approx(differences[1])
+    # A third as wide if draws were records; where two bins meet, one record more or less makes little difference.
+    widths = [
+        np.mean([row["high"] - row["low"] for row in scores.accuracy_against["snr_db"]]) for scores in (once, pooled)
+    ]
+    assert widths[1] > 0.8 * widths[0] > 0.1
 
 
 def test_pooled_draws_keep_what_each_draw_says_of_every_record():

@@ -5,11 +5,13 @@ from __future__ import annotations
 import csv
 import json
 import math
+import shutil
 from collections.abc import Callable
 from dataclasses import astuple, replace
 from pathlib import Path
 
 import numpy as np
+import pandas
 import pytest
 from command_line import run
 
@@ -209,6 +211,20 @@ def test_an_unknown_split_is_bad_input_and_writes_nothing(sized_corpus: Path, tm
     assert code == 2
     assert "exam" in complaint
     assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize(("splits", "scored"), [(("train", "test"), [1, 3]), (("train", "validation"), [0, 1, 2, 3])])
+def test_of_a_corpus_with_a_split_test_that_alone_is_scored_unless_another_is_asked_for(
+    splits: tuple[str, str], scored: list[int], sized_corpus: Path, tmp_path: Path
+) -> None:
+    divided = tmp_path / "divided"
+    shutil.copytree(sized_corpus, divided)
+    index = pandas.read_csv(divided / "index.csv", keep_default_na=False)
+    index["split"] = [splits[record % 2] for record in index["record"]]
+    index.to_csv(divided / "index.csv", index=False)
+    scores = score_sizes(divided, None, True, None)
+    assert [record.truth.record for record in scores.records] == scored
+    assert scores.split == ("test" if "test" in splits else "all")
 
 
 def figure(summary: SizeSummary, name: str) -> float:

@@ -6,6 +6,8 @@ import shutil
 from contextlib import nullcontext
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,7 +16,7 @@ from datagen.errors import BadInput
 from datagen.recipes.recipe import parse_recipe
 from datagen.runs.generate import generate
 from datagen.runs.workers import Engine
-from datagen.sizing import fit
+from datagen.sizing import fit, fit_stages
 from datagen.sizing.estimators import default_estimator
 from datagen.sizing.fit_limits import most_doubt, reach
 from datagen.sizing.sized_records import sized_records
@@ -22,7 +24,9 @@ from datagen.sizing.training_rows import trials
 from datagen.sizing.trial_columns import TrialColumns
 from labels.spall_size.estimation.calibration import Calibration
 from labels.spall_size.estimation.estimator import SizeEstimator
+from labels.spall_size.estimation.measurement import LeadingPairs
 from labels.spall_size.size_estimate import SizeOutcome
+from physics.arrays import Array
 
 
 @pytest.fixture(scope="module")
@@ -178,6 +182,62 @@ def test_a_file_that_cannot_be_finished_leaves_the_old_one(
     (tmp_path / "c.npz").write_text("old")
     assert fit.main([str(small_ladder), "--out", str(tmp_path / "c.npz")]) == 2
     assert [(path.name, path.read_text()) for path in tmp_path.iterdir()] == [("c.npz", "old")]
+
+
+class Names:
+    """What was learned from some trials: it says of any pairs which bearings these were of."""
+
+    def __init__(self, made: list[SimpleNamespace]) -> None:
+        self.bearings = {trial.bearing_id for trial in made}
+
+    def predict(self, features: object) -> set[str]:
+        return self.bearings
+
+
+def test_pairs_are_scored_by_what_was_learned_from_other_bearings(monkeypatch: pytest.MonkeyPatch) -> None:
+    bearing = np.repeat(["a", "b", "c", "d", "e"], 3)
+    evidence = SimpleNamespace(pairs=SimpleNamespace(features=None))
+    made: Any = [SimpleNamespace(bearing_id=name, evidence=evidence) for name in bearing.tolist()]
+    monkeypatch.setattr(fit_stages, "_pair_score", Names)
+    found: Any = fit_stages.fit_pair_score(made, bearing)
+    assert found.trees.bearings == set("abcde")  # the model that is kept has learned from all
+    for name, others in zip(bearing.tolist(), found.scores, strict=True):
+        assert name not in others
+        assert len(others) in (3, 4)
+
+
+class Watched:
+    """Regressions that are asked out of fold alone, and of which bearings the rows are that they are asked about."""
+
+    def __init__(self) -> None:
+        self.groups: list[str] = []
+
+    def fit(self, *_: object) -> None:
+        """Nothing that could be asked."""
+
+    def out_of_fold(self, rows: Array, aim: Array, used: Array, groups: Array, weight: object = None) -> Array:
+        self.groups = groups.tolist()
+        return np.asarray(aim)
+
+
+def test_pairs_are_ranked_by_what_was_learned_from_other_bearings(monkeypatch: pytest.MonkeyPatch) -> None:
+    lags = {"a": [3.0, 5.0], "b": [7.0, 9.0, 11.0], "c": [13.0]}
+    leading = {
+        name: LeadingPairs(*(np.array(lag) for _ in range(4)), np.zeros((len(lag), 2))) for name, lag in lags.items()
+    }
+    monkeypatch.setattr(fit_stages, "leading_pairs", lambda evidence, *_: leading[evidence.name])
+    monkeypatch.setattr(fit_stages, "leading_order", lambda pairs, _: np.arange(pairs.size))
+    watched = Watched()
+    monkeypatch.setattr(fit_stages, "RANK", watched)
+    made: Any = [
+        SimpleNamespace(
+            evidence=SimpleNamespace(name=name, pairs=np.array(lag)), situation=None, quality=np.arange(len(lag))
+        )
+        for name, lag in lags.items()
+    ]
+    found = fit_stages.fit_rank(made, [np.zeros(0)] * 3, np.array(list(lags)))
+    assert watched.groups == ["a", "a", "b", "b", "b", "c"]
+    assert found.lag.tolist() == [5.0, 11.0, 13.0]  # those of the best quality
 
 
 @pytest.mark.slow

@@ -10,7 +10,7 @@ import pytest
 from numpy.typing import NDArray
 
 from datagen.sizing.sized_records import SizedRecord
-from datagen.sizing.training_rows import LAG_SCALE, LEVELS_DB, Excerpt, in_noise_of_the_ladder, trial
+from datagen.sizing.training_rows import LAG_SCALE, LEVELS_DB, Excerpt, _excerpts, in_noise_of_the_ladder, trial
 from labels.spall_size.estimation.gathering import gather_evidence
 from labels.spall_size.event_truth import EventTruth
 from labels.spall_size.events.evidence import Evidence
@@ -92,6 +92,25 @@ def test_half_a_sample_of_the_lag_is_no_error(off: float, wrong: float, heard: t
     lag = float(evidence.pairs.lag[best]) - off
     made = trial(record(first, first + lag / RATE, 0.2), evidence, whole)
     assert made.quality[best] == pytest.approx(math.exp(-wrong / lag / LAG_SCALE), rel=1e-6)
+
+
+@pytest.mark.parametrize("snr_db", [10.0, 60.0, math.nan])
+def test_every_record_is_heard_as_stored_and_once_whole_without_noise(snr_db: float) -> None:
+    noise, clean = np.random.default_rng(2).standard_normal((2, 4000, 2))
+    noisy = snr_db == 10.0  # 60 dB and more count as none, and so does a record without background
+    sized = record(np.zeros(0), np.zeros(0), 0.2)
+    sized = replace(sized, clean=clean, acceleration=clean + 0.3 * noise * noisy, labels={"snr_db": snr_db})
+    stored, other, part = _excerpts(sized)
+    assert (stored.stored, other.stored, part.stored) == (True, False, False)
+    assert (stored.clean, other.clean, part.clean) == (not noisy, noisy, False)
+    np.testing.assert_array_equal(stored.signal, sized.acceleration[:, 1])
+    (whole,) = (excerpt.signal for excerpt in (stored, other) if excerpt.clean)
+    np.testing.assert_array_equal(whole, clean[:, 1])
+    assert not np.array_equal(stored.signal, other.signal)
+    assert 400 <= part.signal.size <= 2000  # a tenth to half
+    assert any(
+        np.array_equal(part.signal, one.signal[part.start : part.start + part.signal.size]) for one in (stored, other)
+    )
 
 
 def test_a_record_without_events_or_heard_on_the_wrong_race_has_no_pair_to_be_found(

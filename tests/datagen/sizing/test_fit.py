@@ -19,10 +19,11 @@ from datagen.runs.workers import Engine
 from datagen.sizing import fit, fit_stages
 from datagen.sizing.estimators import default_estimator
 from datagen.sizing.fit_limits import most_doubt, reach
+from datagen.sizing.fit_stages import FittedGuess
 from datagen.sizing.sized_records import sized_records
 from datagen.sizing.training_rows import trials
 from datagen.sizing.trial_columns import TrialColumns
-from labels.spall_size.estimation.calibration import Calibration
+from labels.spall_size.estimation.calibration import Calibration, Guess
 from labels.spall_size.estimation.estimator import SizeEstimator
 from labels.spall_size.estimation.measurement import LeadingPairs
 from labels.spall_size.size_estimate import SizeOutcome
@@ -238,6 +239,29 @@ def test_pairs_are_ranked_by_what_was_learned_from_other_bearings(monkeypatch: p
     found = fit_stages.fit_rank(made, [np.zeros(0)] * 3, np.array(list(lags)))
     assert watched.groups == ["a", "a", "b", "b", "b", "c"]
     assert found.lag.tolist() == [5.0, 11.0, 13.0]  # those of the best quality
+
+
+def test_guesses_learn_the_lag_less_whole_passes_and_reach_over_the_records_given_a_size(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    lag, doubts = np.array([10.0, 30.0, 5.0, 5.0]), np.array([0.1, 0.9, 0.5, 0.5])
+    asked = []
+
+    def guessed(rows: Array, error: Array, bearing: Array) -> FittedGuess:
+        asked.append(error)
+        nothing: Any = None
+        return FittedGuess(Guess(nothing, nothing, 1.0), np.zeros(4), np.array([1.0, 5.0, 7.0, 9.0]))
+
+    monkeypatch.setattr(fit, "fit_rank", lambda *_: SimpleNamespace(trees=None, lag=lag, lag_arc=lag / 100, rows=None))
+    monkeypatch.setattr(fit, "fit_guess", guessed)
+    monkeypatch.setattr(fit, "fit_doubt", lambda *_: SimpleNamespace(trees=None, expected=doubts))
+    longer = columns(true_lag=np.array([120.0, 30.0, np.nan, 1.9]))  # by a whole pass
+    judgement, _ = fit._judgement([], longer, [])
+    np.testing.assert_allclose(asked[0], np.log(np.array([20.0, 30.0, np.nan, 1.9]) / lag))
+    np.testing.assert_allclose(asked[1], np.log(np.array([0.1, 0.2, np.nan, 0.01]) / (lag / 100)))
+    # The clean one is wrong by more than is allowed, so no more is answered than it; intervals reach as far as it does.
+    assert judgement.most == pytest.approx(0.1)
+    assert judgement.lag.reach == judgement.arc.reach == pytest.approx(1.0)
 
 
 @pytest.mark.slow

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import math
 import signal
 import threading
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from types import FrameType
+
+# Signals of one request come within this time (s), and what tidies up after the first is done by then.
+TOGETHER = 10.0
 
 
 class Terminated(KeyboardInterrupt):
@@ -15,20 +20,22 @@ class Terminated(KeyboardInterrupt):
 
 @contextmanager
 def terminable() -> Iterator[None]:
-    """Within the block the first SIGTERM raises Terminated in the main thread, and later ones are ignored: batch
-    systems send several, and tidying up must not be interrupted. Afterwards SIGTERM does what it did before.
+    """Within the block SIGTERM raises Terminated in the main thread; those that come TOGETHER with one are ignored:
+    batch systems send several, and tidying up must not be interrupted. A later one raises it again, as Python drops an
+    exception that is raised while an object is being finalised. Afterwards SIGTERM does what it did before.
 
     Nothing is changed if SIGTERM already has a handler or is ignored, or outside the main thread.
     """
     if threading.current_thread() is not threading.main_thread() or signal.getsignal(signal.SIGTERM) != signal.SIG_DFL:
         yield
         return
-    came = False
+    raised = -math.inf
 
     def end(number: int, frame: FrameType | None) -> None:
-        nonlocal came
-        if not came:
-            came = True
+        nonlocal raised
+        now = time.monotonic()
+        if now - raised > TOGETHER:
+            raised = now
             raise Terminated
 
     signal.signal(signal.SIGTERM, end)

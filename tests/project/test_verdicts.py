@@ -9,15 +9,28 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 DOCS = ROOT / "docs"
-README = " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
+
+
+def verdict(page):
+    text = (DOCS / page).read_text(encoding="utf-8")
+    return text.split("## Should I trust it, and for what?\n")[1].split("\n## ")[0]
+
+
+SAID = {
+    name: " ".join(text.split())
+    for name, text in {
+        "README": (ROOT / "README.md").read_text(encoding="utf-8"),
+        "size.md": verdict("size.md"),
+        "transfer.md": verdict("transfer.md"),
+    }.items()
+}
 
 
 @pytest.mark.parametrize("page", ["size.md", "transfer.md"])
 def test_every_decimal_of_the_verdict_stands_in_a_table_of_the_page(page):
     text = (DOCS / page).read_text(encoding="utf-8")
-    verdict = text.split("## Should I trust it, and for what?\n")[1].split("\n## ")[0]
     tables = "".join(re.findall(r"<!-- [^>]*: begin .*?: end -->", text, re.DOTALL))
-    figures = re.findall(r"\d+\.\d+", verdict)
+    figures = re.findall(r"\d+\.\d+", verdict(page))
     assert len(figures) > 8
     assert [figure for figure in figures if figure not in re.findall(r"\d+\.\d+", tables)] == []
 
@@ -26,14 +39,21 @@ def test_every_decimal_of_the_verdict_stands_in_a_table_of_the_page(page):
 ALL, FIRST, IN_BRACKETS, OF_132, OF_78 = r"[\d.]+", r"^[\d.]+", r"\(([\d.]+)\)", r"^\d+(?= of 132)", r"^\d+(?= of 78)"
 LEARNERS, FOUND = "(forest|logistic|boosting)", "(outer and inner, )?without odd ones"
 LEVELS, NOISY = "clean|20|10|5|0", "(20|10|5|0) dB"
-PAGES = {"scores": "transfer.md", "draws": "transfer.md", "size ladder": "size.md", "speeds": "charts/README.md"}
+PAGES = {
+    "scores": "transfer.md",
+    "draws": "transfer.md",
+    "noise": "transfer.md",
+    "size ladder": "size.md",
+    "speeds": "charts/README.md",
+}
 
 
 class Claim(NamedTuple):
-    """A sentence of the README whose number all cells round to, or whose two numbers are the smallest and the largest.
+    """A sentence whose number all cells round to, or whose two numbers are the smallest and the largest.
 
     `table` stands on its page between marks. `row` and `column` are patterns: of the cells that a row begins with, and
-    of a column's name. What is read from a cell counts `scale` times.
+    of a column's name. What is read from a cell counts `scale` times. `where` the sentence stands: in the README, or in
+    the verdict of a page.
     """
 
     sentence: str
@@ -42,6 +62,7 @@ class Claim(NamedTuple):
     column: str
     reading: str
     scale: float = 1.0
+    where: str = "README"
 
 
 CLAIMS = (
@@ -61,6 +82,50 @@ CLAIMS = (
     Claim("% and {} to {} %. It has not", "size ladder", ("noise, dB", LEVELS), "lag error.*", IN_BRACKETS),
 )
 
+FRESH, BLIND, MEAN_LAG, MEAN_ARC = "fresh ladder", "fresh ladder, blind", "lag error.*", "arc error.*"
+OF_ALL, NOISE_ADDED, AT_THE_ALARM = "outer and inner, all records", "noise", ".*at the alarm"
+
+
+def size_verdict(sentence, row, column, reading=FIRST):
+    return Claim(sentence, "size ladder", row, column, reading, where="size.md")
+
+
+def transfer_verdict(sentence, table, row, column, reading=FIRST):
+    return Claim(sentence, table, row, column, reading, where="transfer.md")
+
+
+VERDICTS = (
+    size_verdict("arc of clean records is wrong by {} % in", ("noise, dB", "clean"), MEAN_ARC),
+    size_verdict("in the mean and by {} % in the median, at", ("noise, dB", "clean"), MEAN_ARC, IN_BRACKETS),
+    size_verdict("at 10 dB by {} % and", ("noise, dB", "10"), MEAN_ARC),
+    size_verdict("% and {} %. That is far better", ("noise, dB", "10"), MEAN_ARC, IN_BRACKETS),
+    size_verdict("{} % of the clean records with a spall", ("no estimate, clean",), FRESH),
+    size_verdict("above 800 N {} %", ("load, N", "over 800"), "no estimate"),
+    size_verdict("on the mfpt rig {} %", ("rig", "mfpt"), "no estimate"),
+    size_verdict("At 20 dB the lag is wrong by {} % in", ("noise, dB", "20"), MEAN_LAG),
+    size_verdict("in the mean but by {} % in the median", ("noise, dB", "20"), MEAN_LAG, IN_BRACKETS),
+    size_verdict("hold {} % of the true lags", ("90 % interval of the lag holds the truth",), FRESH),
+    size_verdict("{} % of the true arcs", ("90 % interval of the arc holds the truth",), FRESH),
+    size_verdict("For {} % of the records without an event", ("abstention where there is no event",), FRESH),
+    size_verdict("Blind, {} % of clean records get no size", ("no estimate, clean",), BLIND),
+    size_verdict("so their error of {} %", ("arc error, clean",), BLIND),
+    transfer_verdict("Every learner scores {} on `mfpt`", "scores", ("mfpt", LEARNERS), OF_ALL),
+    transfer_verdict("and {} on `cwru_de12k` (", "scores", ("cwru_de12k", LEARNERS), OF_ALL),
+    transfer_verdict("({} without three odd records)", "scores", ("cwru_de12k", LEARNERS), "without odd ones"),
+    transfer_verdict("The rule scores {} and", "scores", ("mfpt", "rule"), OF_ALL),
+    transfer_verdict("and {}; the difference on `cwru_de12k`", "scores", ("cwru_de12k", "rule"), OF_ALL),
+    transfer_verdict("the difference on `cwru_de12k` is {} [", "scores", ("cwru_de12k", LEARNERS), "minus rule"),
+    transfer_verdict("the forest scores {}, the rule", "scores", ("corpus", "forest"), OF_ALL),
+    transfer_verdict("the rule {}; at −13 dB", "scores", ("corpus", "rule"), OF_ALL),
+    transfer_verdict("on `cwru_de12k` it scores {},", NOISE_ADDED, ("cwru_de12k", "-13", "forest"), AT_THE_ALARM),
+    transfer_verdict("the rule {}. In less noise", NOISE_ADDED, ("cwru_de12k", "-13", "rule"), AT_THE_ALARM),
+    transfer_verdict("through another sensor: {} by the rule", "draws", ("cwru_fe12k", "rule"), FOUND, ALL),
+    transfer_verdict("every learner scores {} on `cwru_de12k`", "draws", ("cwru_de12k", LEARNERS), FOUND, ALL),
+    transfer_verdict(
+        "the forest scores {} on `cwru_de12k`", NOISE_ADDED, ("cwru_de12k", "-16", "forest"), AT_THE_ALARM
+    ),
+)
+
 
 def numbers(claim):
     """What stands in the rows and columns that a claim quotes."""
@@ -76,10 +141,10 @@ def numbers(claim):
             yield from (claim.scale * float(number) for cell in chosen for number in re.findall(claim.reading, cell))
 
 
-@pytest.mark.parametrize("claim", CLAIMS, ids=lambda claim: claim.sentence)
-def test_a_figure_of_the_readme_quotes_its_table(claim):
-    said = re.findall(re.escape(claim.sentence).replace(r"\{\}", r"([\d.]+)"), README)
-    assert len(said) == 1, f"the README says this {len(said)} times"
+@pytest.mark.parametrize("claim", CLAIMS + VERDICTS, ids=lambda claim: claim.sentence)
+def test_a_figure_quotes_its_table(claim):
+    said = re.findall(re.escape(claim.sentence).replace(r"\{\}", r"([\d.]+)"), SAID[claim.where])
+    assert len(said) == 1, f"{claim.where} says this {len(said)} times"
     low, high = said[0] if isinstance(said[0], tuple) else said * 2
     found = list(numbers(claim))
     for stated, measured in ((low, min(found)), (high, max(found))):

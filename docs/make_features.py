@@ -13,9 +13,11 @@ HEAD = "| feature | unit | what it is | source |\n|---|---|---|---|\n"
 
 
 def table() -> str:
-    """The table of all features."""
-    rows = [f"| `{row.name}` | {row.dimension} | {row.sentence} | {row.source} |" for row in FEATURES]
-    return HEAD + "\n".join(rows)
+    """The table of all features, and below it the sources that its last column numbers."""
+    number = {source: place for place, source in enumerate(dict.fromkeys(row.source for row in FEATURES), start=1)}
+    rows = [f"| `{row.name}` | {row.dimension} | {row.sentence} | {number[row.source]} |" for row in FEATURES]
+    sources = [f"{place}. {source}" for source, place in number.items()]
+    return HEAD + "\n".join([*rows, "", "Sources:", "", *sources])
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""What tests of imports share: the kinds of the fixtures that they ask for, and how a refusal is read."""
+"""What tests of imports share: the kinds of the fixtures that they ask for, noise, and how a refusal is read."""
 
 from __future__ import annotations
 
@@ -13,6 +13,10 @@ from datagen.errors import BadInput
 
 Bring = Callable[..., Corpus]
 Mat = Callable[..., np.ndarray]
+
+
+def noise(size: int = 400, seed: int = 0) -> np.ndarray:
+    return np.random.default_rng(seed).standard_normal(size)
 
 
 def refusal(bring: Bring, text: str, tmp_path: Path) -> str:

@@ -8,17 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 import scipy.io
-from imports import Bring
+from imports import Bring, noise
 
 from datagen.corpus import Corpus
 from datagen.recordings.importing import import_recordings
 from datagen.recordings.spec import load_spec
 
 HEAD = 'name = "mine"\n'
-
-
-def noise(size: int = 400, seed: int = 0) -> np.ndarray:
-    return np.random.default_rng(seed).standard_normal(size)
 
 
 @pytest.fixture

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 from command_line import run
-from imports import Bring, Mat, refusal
+from imports import Bring, Mat, noise, refusal
 
 from datagen.corpus_files.manifest import write_manifest
 from datagen.errors import BadInput
@@ -18,10 +18,6 @@ from datagen.recordings import importing
 from datagen.recordings.source import source_hash
 
 GOOD = '[[recording]]\nname = "all"\nfiles = "*.mat"\nunit = "g"\nrate_hz = 1000\ny = "sig"\n'
-
-
-def noise(size: int = 400, seed: int = 0) -> np.ndarray:
-    return np.random.default_rng(seed).standard_normal(size)
 
 
 @pytest.mark.parametrize(

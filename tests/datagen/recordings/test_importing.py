@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 import xarray
 from command_line import run
-from imports import Bring, Mat
+from imports import Bring, Mat, noise
 from scipy.io import wavfile
 
 from datagen.corpus import Corpus
@@ -31,10 +31,6 @@ from labels.envelope import band_envelope
 from labels.schema import LABEL
 
 G = 9.80665
-
-
-def noise(size: int = 400, seed: int = 0) -> np.ndarray:
-    return np.random.default_rng(seed).standard_normal(size)
 
 
 def as_stored(samples: np.ndarray, factor: float) -> np.ndarray:

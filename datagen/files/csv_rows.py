@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import codecs
 import csv
+import errno
+import gzip
 import io
 import os
+import zlib
 from collections.abc import Iterator
 from itertools import islice
 from pathlib import Path
@@ -15,6 +18,9 @@ from datagen.errors import BadInput
 
 BLANKS = " "
 UTF_8 = "utf-8"
+GZIP = b"\x1f\x8b"
+# What reading compressed text raises where it breaks off or is damaged.
+BROKEN = (EOFError, zlib.error, gzip.BadGzipFile)
 # What old systems and some loggers fill the end of a file with: Ctrl-Z and zeros.
 FILLING = "\x1a\0"
 Row = tuple[int, list[str]]
@@ -26,12 +32,19 @@ class NotText(BadInput):
 
 def open_text(path: Path, encoding: str = UTF_8) -> IO[str]:
     """The text file at `path`, opened with its line ends as they are, without what fills its end; in UTF-8 a byte order
-    mark is no matter."""
+    mark is no matter, and text compressed by gzip is read as it unpacks: to an error of BROKEN if it is damaged."""
     known = "utf-8-sig" if codecs.lookup(encoding).name == UTF_8 else encoding
+    if _is_compressed(path):
+        return gzip.open(path, "rt", newline="", encoding=known)
     if not _may_be_filled(path):
         return path.open(newline="", encoding=known)
     text = path.read_bytes().decode(known)
     return io.StringIO(text.rstrip(FILLING + "\r\n"), newline="")
+
+
+def _is_compressed(path: Path) -> bool:
+    with path.open("rb") as file:
+        return file.read(len(GZIP)) == GZIP
 
 
 def _may_be_filled(path: Path) -> bool:
@@ -63,6 +76,8 @@ def read_csv_rows(
             return list(islice(((skip_lines + line, cells) for line, cells in rows if cells or blank), most))
     except UnicodeError:
         raise NotText(f"not a text file in {encoding}", str(path), allowed=f"the text saved in {encoding}") from None
+    except BROKEN:
+        raise OSError(errno.EIO, "its compressed text is damaged or breaks off") from None
 
 
 def _split(lines: Iterator[str]) -> Iterator[Row]:

@@ -22,15 +22,35 @@ INDEXED = re.compile(r"(?P<name>.+)\[(?P<places>[-+\d:,\s]+)\]")
 MOST_NAMES = 12
 MOST_ALIKE, LETTERS_ALIKE = 4, 3
 ONLY_NAME = "data"
+TEXTS = "US"
 
 
 class NumericVariables(dict[str, NDArray[Any]]):
     """The variables of a file that hold numbers, by name; `unread` are the names of those that hold texts, tables or
-    sparse matrices."""
+    sparse matrices. Texts that are numbers count as these."""
 
     def __init__(self) -> None:
         super().__init__()
         self.unread: list[str] = []
+
+    def add(self, name: str, array: NDArray[Any] | None) -> None:
+        """Take an array of numbers or of texts by its name; None stands for anything else."""
+        numbers = None if array is None else as_numbers(array)
+        if numbers is None:
+            self.unread.append(name)
+        else:
+            self[name] = numbers
+
+
+def as_numbers(array: NDArray[Any]) -> NDArray[Any] | None:
+    """An array as it is, but of texts the finite numbers that they are; None if one of them is none."""
+    if array.dtype.kind not in TEXTS:
+        return array
+    try:
+        found = array.astype(np.float64)
+    except ValueError:
+        return None
+    return found if found.size and np.isfinite(found).all() else None
 
 
 class NoVariable(BadInput):

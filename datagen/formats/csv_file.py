@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from datagen.errors import BadInput
-from datagen.files.csv_rows import BLANKS, NotText, Row, open_text, read_csv_rows
+from datagen.files.csv_rows import BLANKS, BROKEN, NotText, Row, open_text, read_csv_rows
 from datagen.formats.csv_hints import (
     DECIMAL_COMMA,
     THOUSANDS,
@@ -24,8 +24,8 @@ from datagen.formats.csv_hints import (
 from datagen.formats.csv_layout import CsvLayout, number
 from physics.arrays import Array
 
-# How compressed and packed files begin: gzip, zip (spreadsheets too), 7z, rar.
-PACKED = (b"\x1f\x8b", b"PK\x03\x04", b"7z\xbc\xaf\x27\x1c", b"Rar!")
+# How packed files and workbooks begin: zip (.xlsx too), 7z, rar, OLE (.xls).
+PACKED = (b"\xd0\xcf\x11\xe0", b"PK\x03\x04", b"7z\xbc\xaf\x27\x1c", b"Rar!")
 
 # What is allowed where a row has more or fewer cells than there are columns.
 ROWS_ALIKE = (
@@ -66,7 +66,7 @@ def read_csv(path: Path, layout: CsvLayout) -> Columns:
 def _refuse_packed(path: Path) -> None:
     with path.open("rb") as file:
         if file.read(max(map(len, PACKED))).startswith(PACKED):
-            raise BadInput("is compressed or packed, not text", str(path), allowed="the file as text, unpacked")
+            raise BadInput("is packed or a workbook, not text", str(path), allowed="the table as text, unpacked")
 
 
 def _clean_table(path: Path, layout: CsvLayout) -> Columns | None:
@@ -115,7 +115,7 @@ def _loaded(
                 _lines(file, layout.decimal), delimiter=None if layout.delimiter == BLANKS else layout.delimiter,
                 comments=None, skiprows=skip, ndmin=2, converters=converters or None,
             )  # fmt: skip
-    except (ValueError, TypeError):
+    except (ValueError, TypeError, *BROKEN):
         return None
 
 

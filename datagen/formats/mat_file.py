@@ -14,16 +14,15 @@ from numpy.typing import NDArray
 
 from datagen.errors import BadInput
 from datagen.files.time_stamps import HDF5_SIGNATURE
-from datagen.formats.arrays import Arrays, NumericVariables
+from datagen.formats.arrays import TEXTS, Arrays, NumericVariables
 from datagen.formats.netcdf_file import read_netcdf
 
 USER_BLOCK = 512
 NUMBERS, COMPLEX = "iufb", "c"
-TEXTS = "US"
 
 
 def read_mat(path: Path) -> Arrays:
-    """Every numeric variable of a .mat file; raises BadInput.
+    """Every numeric variable of a .mat file, texts that are numbers too; raises BadInput.
 
     A field F of a structure S is called "S.F". Of an array of structures, and of a cell array C, the elements are
     counted from 0, column by column: "S[2].F", "C[2]".
@@ -64,10 +63,8 @@ def _collect(found: NumericVariables, name: str, value: NDArray[Any]) -> None:
                 _collect(found, _element(name, index, value.size), element)
             else:
                 found.unread.append(_element(name, index, value.size))
-    elif value.dtype.kind in TEXTS:
-        found.unread.append(name)
-    elif value.dtype.kind in NUMBERS + COMPLEX:
-        found[name] = value
+    elif value.dtype.kind in NUMBERS + COMPLEX + TEXTS:
+        found.add(name, value)
 
 
 def _read_hdf5(path: Path) -> Arrays:
@@ -85,15 +82,12 @@ def _read_hdf5(path: Path) -> Arrays:
 def _sorted_out(variables: Iterator[tuple[str, NDArray[Any] | None]]) -> NumericVariables:
     found = NumericVariables()
     for name, value in variables:
-        if value is None:
-            found.unread.append(name)
-        else:
-            found[name] = value
+        found.add(name, value)
     return found
 
 
 def _of_group(group: Any, name: str) -> Iterator[tuple[str, NDArray[Any] | None]]:
-    """The variables of a structure, or of the whole file, by name; None for those that hold no numbers.
+    """The variables of a structure, or of the whole file, by name; None for those that hold neither numbers nor a text.
 
     Each field of an array of structures is a list of references, as a cell array is, but is of no class.
     """
@@ -113,9 +107,9 @@ def _of_group(group: Any, name: str) -> Iterator[tuple[str, NDArray[Any] | None]
 
 
 def _of_item(item: Any, name: str) -> Iterator[tuple[str, NDArray[Any] | None]]:
-    """The numbers of a variable or cell array, None if it holds none.
+    """The numbers of a variable or cell array, or its text of one line; None if it holds neither.
 
-    MATLAB writes an array's dimensions in reverse order.
+    MATLAB writes an array's dimensions in reverse order, and a text as the codes of its letters.
     """
     import h5py
 
@@ -124,7 +118,10 @@ def _of_item(item: Any, name: str) -> Iterator[tuple[str, NDArray[Any] | None]]:
     elif _refers(item):
         for index, target in enumerate(item[...].ravel()):
             yield from _of_item(item.file[target], _element(name, index, item.size))
-    elif item.dtype.kind in NUMBERS and item.attrs.get("MATLAB_class") != b"char":
+    elif item.attrs.get("MATLAB_class") == b"char":
+        is_line = item.ndim == 2 and item.shape[1] == 1 and not item.attrs.get("MATLAB_empty", 0)
+        yield name, np.array(["".join(map(chr, item[:, 0]))]) if is_line else None
+    elif item.dtype.kind in NUMBERS:
         # Of an empty array the file holds the dimensions instead.
         empty = bool(item.attrs.get("MATLAB_empty", 0))
         yield name, np.zeros(0) if empty else np.asarray(item[...]).T

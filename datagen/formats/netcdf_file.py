@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from datagen.errors import BadInput
 from datagen.files.netcdf import ONE_AT_A_TIME
-from datagen.formats.arrays import Arrays
+from datagen.formats.arrays import Arrays, as_numbers
 
 # The two formats of netCDF-3 that scipy knows too, and the one that it does not.
 CLASSIC, LARGE = (b"CDF\x01", b"CDF\x02"), b"CDF\x05"
@@ -43,7 +43,7 @@ class _Variables(Mapping[str, NDArray[Any]]):
             with ONE_AT_A_TIME, netCDF4.Dataset(self.path) as file:
                 held: Any = file[place] if place else file
                 if attribute:
-                    return np.asarray(held.getncattr(attribute))
+                    return _attribute(held, attribute)
                 values = held[...]
         except Exception as problem:  # whatever the damaged bytes lead the library to
             raise BadInput(f"its variable {name} cannot be read: {problem}", str(self.path)) from None
@@ -70,10 +70,16 @@ def _numeric(group: Any, prefix: str) -> Iterator[tuple[str, Place]]:
 
 
 def _attributes(held: Any, name: str, place: str) -> Iterator[tuple[str, Place]]:
-    """Name and place of each numeric attribute of a group or variable."""
+    """Name and place of each attribute of a group or variable that is a number, or a text that is one."""
     for attribute in held.ncattrs():
-        if np.asarray(held.getncattr(attribute)).dtype.kind in "iuf":
+        if _attribute(held, attribute).dtype.kind in "iuf":
             yield f"{name}{ATTRIBUTE}{attribute}", (place, attribute)
+
+
+def _attribute(held: Any, attribute: str) -> NDArray[Any]:
+    told = np.asarray(held.getncattr(attribute))
+    numbers = as_numbers(told)
+    return told if numbers is None else numbers
 
 
 def read_netcdf(path: Path) -> Arrays:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datagen.errors import BadInput
-from datagen.formats.arrays import ONLY_NAME, Arrays
+from datagen.formats.arrays import ONLY_NAME, Arrays, NumericVariables, as_numbers
 
 
 class _Members(Mapping[str, NDArray[Any]]):
@@ -26,11 +26,13 @@ class _Members(Mapping[str, NDArray[Any]]):
             raise KeyError(name)
         try:
             with np.load(self.path) as file:
-                return np.asarray(file[name])
+                value = np.asarray(file[name])
         except Exception as problem:  # whatever the damaged bytes lead NumPy and zlib to
             if "allow_pickle" in str(problem):  # NumPy would have its own switch set, with which a file runs programs
                 raise _of_objects(f"its array {name}", self.path) from None
             raise BadInput(f"its array {name} cannot be read: {problem}", str(self.path)) from None
+        numbers = as_numbers(value)
+        return value if numbers is None else numbers
 
     def __iter__(self) -> Iterator[str]:
         return iter(self.names)
@@ -55,10 +57,16 @@ def read_npz(path: Path) -> Arrays:
 
 
 def read_npy(path: Path) -> Arrays:
-    """The one array of an .npy file, called "data"; raises BadInput."""
+    """The one array of an .npy file, called "data", of a structured one each field, "data.FIELD"; raises BadInput."""
     try:
-        return {ONLY_NAME: np.asarray(np.load(path, mmap_mode="r"))}
+        array = np.asarray(np.load(path, mmap_mode="r"))
     except Exception as problem:  # as above
         if "Python objects" in str(problem):
             raise _of_objects("it", path) from None
         raise BadInput(f"cannot be read as an .npy file: {problem}", str(path)) from None
+    if array.dtype.names is None:
+        return {ONLY_NAME: array}
+    found = NumericVariables()
+    for field in array.dtype.names:
+        found.add(f"{ONLY_NAME}.{field}", array[field])
+    return found

@@ -27,7 +27,8 @@ def filled(text: str, path: Path, field: str, more: Mapping[str, str] | None = N
 
 
 def without_ending(path: Path | PurePosixPath) -> str:
-    """Name of a file without its ending; figures alone are none, as in 2003.10.22.12.06.24."""
+    """Name of a file without its ending, nor .gz behind it; figures alone are none, as in 2003.10.22.12.06.24."""
+    path = path.with_suffix("") if path.suffix.lower() == ".gz" else path
     return path.name if re.fullmatch(r"\.\d+", path.suffix) else path.stem
 
 

@@ -23,17 +23,25 @@ READERS: dict[str, Callable[[Path], Arrays]] = {
     "wav": read_wav,
     "nc": read_netcdf,
 }
-PACKED = ("gz", "bz2", "xz", "zst", "zip", "7z", "rar", "tar", "tgz")
+GZIP = "gz"
+PACKED = (GZIP, "bz2", "xz", "zst", "zip", "7z", "rar", "tar", "tgz")
 
 # How a text begins that Git LFS leaves where the data itself was not fetched.
 POINTER = b"version https://git-lfs"
 
 
 def file_format(path: Path, stated: str | None) -> str:
-    """The format that is `stated`, or that the file's ending says; raises BadInput if it says none."""
+    """The format that is `stated`, or that the file's ending says; raises BadInput if it says none.
+
+    Of a table of text .gz may stand behind its own ending.
+    """
     ending = path.suffix.lower().removeprefix(".")
+    inner = Path(path.stem).suffix.lower().removeprefix(".")
+    if ending == GZIP and ENDINGS.get(inner, inner) == "csv":
+        ending = inner
     if ending in PACKED and stated is None:
-        raise BadInput("is packed", str(path), allowed=f"the file unpacked, of a known format ({', '.join(FORMATS)})")
+        known = f"the file unpacked, of a known format ({', '.join(FORMATS)}); only tables of text may stay .{GZIP}"
+        raise BadInput("is packed", str(path), allowed=known)
     kind = stated or ENDINGS.get(ending, ending)
     if kind not in FORMATS:
         problem, allowed = "the file's name does not end like that of a known format", ", ".join(FORMATS)

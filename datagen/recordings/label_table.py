@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, get_args
@@ -32,11 +31,14 @@ class TableRow:
 def read_label_table(path: Path, note_columns: tuple[str, ...]) -> list[TableRow]:
     """The rows of the table at `path`; raises BadInput naming the file, the line and the column.
 
-    An empty cell says nothing. A cell of the column `file` may hold several names separated by |, of which the first
-    that exists is meant. Folders in it may be separated by backslashes, as on Windows.
+    Cells are parted by commas; or by semicolons or tabulators, and then a comma is a decimal sign, as where Excel saves
+    tables in languages that write decimal commas. An empty cell says nothing. A cell of the column `file` may hold
+    several names separated by |, of which the first that exists is meant. Folders in it may be separated by
+    backslashes, as on Windows.
     """
     try:
-        rows = read_csv_rows(path)
+        delimiter = _delimiter(path)
+        rows = read_csv_rows(path, delimiter)
     except OSError as problem:
         raise BadInput(f"cannot be read: {problem.strerror}", str(path)) from None
     if len(rows) < 2:
@@ -45,19 +47,20 @@ def read_label_table(path: Path, note_columns: tuple[str, ...]) -> list[TableRow
     header = [cell.strip() for cell in heads]
     _check_header(header, note_columns, f"{path}, line {first}")
     return [
-        _row(header, cells, note_columns, f"{path}, line {line}")
+        _row(header, cells, note_columns, f"{path}, line {line}", "." if delimiter == "," else ",")
         for line, cells in rows[1:]
         if any(cell.strip() for cell in cells)
     ]
 
 
+def _delimiter(path: Path) -> str:
+    """What parts the cells of a table: a comma, unless its first line has none but semicolons or tabulators."""
+    [(_, heads), *_] = read_csv_rows(path, most=1) or [(0, [""])]
+    return next((sign for sign in ";\t" if len(heads) == 1 and sign in heads[0]), ",")
+
+
 def _check_header(header: list[str], note_columns: tuple[str, ...], place: str) -> None:
     known = (FILE_COLUMN, *SETTINGS, *note_columns)
-    other = next((sign for sign in ";\t" if sign in header[0]), None)
-    if len(header) == 1 and other:
-        raise BadInput(
-            f"the cells of this table are parted by {json.dumps(other)}", place, allowed="commas between cells"
-        )
     for column in header:
         if column not in known:
             hint = f"unknown column{suggestion(column, known)}; list it in note_columns to keep it as a note"
@@ -69,7 +72,7 @@ def _check_header(header: list[str], note_columns: tuple[str, ...], place: str) 
             raise BadInput("this column is missing", place, column)
 
 
-def _row(header: list[str], cells: list[str], note_columns: tuple[str, ...], place: str) -> TableRow:
+def _row(header: list[str], cells: list[str], note_columns: tuple[str, ...], place: str, decimal: str) -> TableRow:
     if len(cells) != len(header):
         raise BadInput(f"{len(cells)} cells, but the table has {len(header)} columns", place)
     said = {name: cell.strip() for name, cell in zip(header, cells, strict=True) if cell.strip()}
@@ -77,8 +80,8 @@ def _row(header: list[str], cells: list[str], note_columns: tuple[str, ...], pla
     files = tuple(name.strip() for name in named.split("|") if name.strip())
     if not files:
         raise BadInput("this cell is empty", place, FILE_COLUMN)
-    notes: dict[str, Any] = {name: _plain(said.pop(name)) for name in note_columns if name in said}
-    settings: dict[str, Any] = {name: cell if _is_text(name) else _plain(cell) for name, cell in said.items()}
+    notes: dict[str, Any] = {name: _plain(said.pop(name), decimal) for name in note_columns if name in said}
+    settings: dict[str, Any] = {name: cell if _is_text(name) else _plain(cell, decimal) for name, cell in said.items()}
     try:
         checked = RecordingSettings.model_validate(settings | ({"notes": notes} if notes else {}))
     except ValidationError as error:
@@ -94,10 +97,10 @@ def _allows_text(annotation: Any) -> bool:
     return annotation is str or any(_allows_text(inner) for inner in get_args(annotation))
 
 
-def _plain(cell: str) -> float | int | str:
+def _plain(cell: str, decimal: str) -> float | int | str:
     for kind in (int, float):
         try:
-            return kind(cell)
+            return kind(cell.replace(decimal, "."))
         except ValueError:
             continue
     return cell

@@ -2,8 +2,10 @@ from __future__ import annotations
 
 import struct
 import wave
+from collections.abc import Callable
 from pathlib import Path
 
+import h5py
 import netCDF4
 import numpy as np
 import pytest
@@ -159,3 +161,49 @@ def test_an_absent_variable_is_refused_with_the_names_that_are_there() -> None:
         chosen({"X099_DE": np.zeros(3), "X099RPM": np.zeros(1)}, "X{number:03}_FE", Path("99.mat"), "y")
     with pytest.raises(BadInput, match=r'y = "a\[:,3\]": a is an array of 4x2 numbers'):
         choose({"a": np.zeros((4, 2))}, "a[:,3]", Path("a.npy"), "y")
+
+
+def write_7_3(path: Path) -> None:
+    with h5py.File(path, "w", userblock_size=512) as file:
+        for name, text in (("fs", "12000"), ("who", "me")):
+            letters = np.array([[ord(letter)] for letter in text], dtype="u2")
+            file.create_dataset(name, data=letters).attrs["MATLAB_class"] = np.bytes_("char")
+    path.write_bytes(b"MATLAB 7.3 MAT-file".ljust(512, b"\0") + path.read_bytes()[512:])
+
+
+def write_attributes(path: Path) -> None:
+    with h5py.File(path, "w") as file:
+        file.attrs["fs"] = "12000"
+        file.attrs["who"] = "me"
+
+
+@pytest.mark.parametrize(
+    ("name", "write", "mark"),
+    [
+        ("a.mat", lambda path: scipy.io.savemat(path, {"fs": "12000", "who": "me"}), ""),
+        ("b.mat", write_7_3, ""),
+        ("a.npz", lambda path: np.savez(path, fs=np.array("12000"), who=np.array("me")), ""),
+        ("a.h5", write_attributes, "@"),
+    ],
+)
+def test_a_number_that_is_written_as_a_text_is_one(
+    name: str, write: Callable[[Path], None], mark: str, tmp_path: Path
+) -> None:
+    path = tmp_path / name
+    write(path)
+    arrays = read_arrays(path, None, PLAIN)
+    assert choose(arrays, f"{mark}fs", path, "rate_hz").tolist() == 12000.0
+    if name != "a.npz":  # whose arrays are not looked at before they are asked for
+        with pytest.raises(NoVariable):
+            choose(arrays, f"{mark}who", path, "rate_hz")
+
+
+def test_the_fields_of_a_structured_array_come_by_name(tmp_path: Path) -> None:
+    table = np.zeros(20, dtype=[("time", "f8"), ("acc", "f4", (3,)), ("note", "U4")])
+    table["time"], table["acc"], table["note"] = np.arange(20.0), np.arange(60.0).reshape(20, 3), "good"
+    np.save(tmp_path / "a.npy", table)
+    arrays = read_arrays(tmp_path / "a.npy", None, PLAIN)
+    assert choose(arrays, "data.time", tmp_path / "a.npy", "y").tolist() == list(range(20))
+    assert choose(arrays, "data.acc[:,1]", tmp_path / "a.npy", "y").tolist() == list(range(1, 60, 3))
+    with pytest.raises(NoVariable, match=r"data\.note\": is a text, .*; allowed: the number itself, or data\.acc"):
+        choose(arrays, "data.note", tmp_path / "a.npy", "y")

@@ -165,7 +165,7 @@ def test_records_of_unknown_bearings_may_be_in_several_splits(bring: Bring, mat:
     ("table", "message"),
     [
         ("fil,location\na.mat,inner\n", 't.csv, line 1: fil: unknown column; did you mean "file"?'),
-        ("file;x\na.mat;1,5\n", 't.csv, line 1: the cells of this table are parted by ";"; allowed: commas between'),
+        ("file;load_n\na.mat;1.797,5\n", 't.csv, line 2: load_n = "1.797,5"; allowed: a number from 0 to 1e+07, or'),
         ("file,location\n,inner\n", "t.csv, line 2: file: this cell is empty"),
         ("file,location\na.mat\n", "t.csv, line 2: 1 cells, but the table has 2 columns"),
         ("file,location\na.mat,iner\n", 't.csv, line 2: location = "iner"; allowed: none, outer, inner'),
@@ -200,7 +200,7 @@ def test_names_that_hold_the_one_wanted_are_suggested(bring: Bring, tmp_path: Pa
     assert 'y = "ACC": the file has no such variable; did you mean "acc_x" or "acc_y"?' in message
 
 
-@pytest.mark.parametrize("ending", ["csv.gz", "mat.zip"])
+@pytest.mark.parametrize("ending", ["mat.gz", "tar.gz", "csv.zip"])
 def test_a_packed_file_is_to_be_unpacked(ending: str, bring: Bring, tmp_path: Path) -> None:
     (tmp_path / f"a.{ending}").write_bytes(b"x")
     message = refusal(bring, GOOD.replace("*.mat", f"*.{ending}"), tmp_path)

@@ -67,6 +67,26 @@ def test_counts_of_a_packed_file_come_back_in_m_s2_with_each_records_own_scale(b
     assert check_corpus(tmp_path / "corpus").problems == ()
 
 
+@pytest.mark.parametrize(("sign", "encoding"), [(";", "utf-8-sig"), ("\t", "utf-8")])
+def test_a_label_table_with_decimal_commas_says_the_same(
+    sign: str, encoding: str, bring: Bring, tmp_path: Path
+) -> None:
+    np.save(tmp_path / "a.npy", noise(400).reshape(200, 2))
+    (tmp_path / "t.csv").write_text(
+        sign.join(("file", "y", "extent_mm", "location", "speed_rpm", "hp")) + "\r\n"
+        + sign.join(("a.npy", "data[:,1]", "0,178", "inner", "1796,5", "1,5")),
+        encoding=encoding, newline="",
+    )  # fmt: skip
+    corpus = bring(
+        '[[recording]]\nname = "all"\ntable = "t.csv"\nunit = "g"\nrate_hz = 12000\nbearing = "skf_6205"\n'
+        'note_columns = ["hp"]\n'
+    )
+    assert np.array_equal(corpus.signal(0), as_stored(noise(400).reshape(200, 2)[:, 1], G))
+    assert corpus.labels["speed_rpm"].tolist() == [1796.5]
+    assert corpus.labels["extent"][0] == pytest.approx(0.178 / 15.55, rel=1e-12)
+    assert json.loads(corpus.waveform(0, "provenance"))["notes"] == {"hp": 1.5}
+
+
 def test_two_axes_and_two_channels_become_records_of_their_own(bring: Bring, tmp_path: Path) -> None:
     samples = noise(1200).reshape(300, 4)
     np.save(tmp_path / "a.npy", samples)

@@ -96,6 +96,20 @@ def titled(folder: Path) -> None:
         (folder / f"bearingset/{name}.csv").write_text(titles + rows, encoding="latin-1")
 
 
+def misnamed(folder: Path) -> None:
+    titles = "".join(f"Title {line}: \xb5\tV\n" for line in range(21)) + "Data\n"
+    for name in ("0.5X_I_40Hz", "H_20Hz", "O_80Hz", "I_VS_0_40_0Hz"):
+        rows = "".join("\t".join(f"{value:.6f}" for value in row) + "\n" for row in noise(64, 5))
+        (folder / f"{name}.xls").write_text(titles + rows, encoding="latin-1")
+
+
+def labview(folder: Path) -> None:
+    end = "***End_of_Header***\t\t\n"
+    head = "LabVIEW Measurement\t\n" + "Operator\tM\xfcller\n" * 10 + f"{end}\t\n" + "X0\t0,0E+0\t\n" * 8 + end
+    rows = "".join(f"{k / 8000:.6f}\t{value:.6f}\t\n" for k, value in enumerate(noise(64))).replace(".", ",")
+    (folder / "run.lvm").write_text(f"{head}X_Value\tUntitled\tComment\n{rows}", encoding="latin-1")
+
+
 def exported(folder: Path) -> None:
     rows = "".join(f"{k / 8000:.6f};{value:.6f};\r\n" for k, value in enumerate(noise(64)))
     (folder / "export").mkdir()
@@ -115,7 +129,8 @@ def corpus(tmp_path_factory: pytest.TempPathFactory) -> Corpus:
     """The records of all layouts."""
     folder = tmp_path_factory.mktemp("layouts")
     for write in (
-        structures, numbered, clocked, dated, encoder, first_row, tacho, stepped, named, titled, exported, stacked,
+        structures, numbered, clocked, dated, encoder, first_row, tacho, stepped, named, titled, misnamed, labview,
+        exported, stacked,
     ):  # fmt: skip
         write(folder)
     (folder / "layouts.toml").write_text(SPEC, encoding="utf-8")
@@ -144,6 +159,8 @@ EXPECTED: dict[str, tuple[list[str], float, list[float]]] = {
     "stepped": (["0Nm_Normal"], 25600.0, [3010.0]),
     "named": (["ib600_2", "ob1000_2", "n600_3_2"], 50000.0, [600.0, 1000.0, 600.0]),
     "titled": (["bearingset/ball_20_0", "bearingset/inner_30_2"], 5120.0, [1200.0, 1800.0]),
+    "misnamed": (["0.5X_I_40Hz", "H_20Hz", "O_80Hz"], 25600.0, [2400.0, 1200.0, 4800.0]),
+    "labview": (["run"], 8000.0, [1480.0]),
     "exported": (["export/1"], 8000.0, [1480.0]),
     "stacked": (["pack row 0", "pack row 1"], 12000.0, [1797.0] * 2),
 }
@@ -169,6 +186,7 @@ def test_the_page_shows_as_many_layouts_as_are_tried(labels: pd.DataFrame) -> No
 
 def test_what_is_defective_is_told_by_a_name_or_a_table(labels: pd.DataFrame) -> None:
     assert labels.loc["named", "location"].tolist() == ["inner", "outer", "none"]
+    assert labels.loc["misnamed", "location"].tolist() == ["inner", "none", "outer"]
     assert labels.loc["stacked", "location"].tolist() == ["inner", "outer"]
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gzip
+import zipfile
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -347,10 +348,36 @@ def test_lines_above_the_header_come_with_a_way_out(bring: Bring, tmp_path: Path
 
 
 @pytest.mark.parametrize("encoding", ["utf-8", "latin-1"])
-def test_a_compressed_table_is_called_so(encoding: str, bring: Bring, tmp_path: Path) -> None:
-    (tmp_path / "a.csv").write_bytes(gzip.compress("\n".join(["a,b", *ROWS]).encode()))
-    with pytest.raises(BadInput, match=r"a\.csv: is compressed or packed, not text; allowed: the file as text"):
+@pytest.mark.parametrize("workbook", [False, True])
+def test_a_packed_table_is_called_so(workbook: bool, encoding: str, bring: Bring, tmp_path: Path) -> None:
+    with zipfile.ZipFile(tmp_path / "a.csv", "w") as file:
+        file.writestr("a.csv", "\n".join(["a,b", *ROWS]))
+    if workbook:
+        (tmp_path / "a.csv").write_bytes(bytes.fromhex("d0cf11e0a1b11ae1") + bytes(504))
+    with pytest.raises(BadInput, match=r"a\.csv: is packed or a workbook, not text; allowed: the table as text"):
         bring(SPEC + f'csv = {{encoding = "{encoding}"}}\n')
+
+
+@pytest.mark.parametrize("hole", [False, True])
+@pytest.mark.parametrize("name", ["a.csv", "a.csv.gz", "a.TXT.GZ"])
+def test_a_table_that_gzip_compressed_is_read_as_it_is(name: str, hole: bool, bring: Bring, tmp_path: Path) -> None:
+    rows = [*ROWS, ROWS[0].replace(",", ",x")] if hole else ROWS  # a text in the other column: not a clean table
+    text = "\n".join(["a,b", *rows])
+    (tmp_path / "plain.csv").write_text(text)
+    (tmp_path / name).write_bytes(gzip.compress(text.encode()))
+    plain = bring(SPEC.replace("a.csv", "plain.csv"), "plain")
+    packed = bring(SPEC.replace("a.csv", name), "packed")
+    assert packed.labels["recording"].tolist() == ["a"]
+    assert np.array_equal(packed.signal(0, "y"), plain.signal(0, "y"))
+
+
+@pytest.mark.parametrize("damage", ["cut off", "changed"])
+def test_a_compressed_table_that_is_damaged_is_refused(damage: str, bring: Bring, tmp_path: Path) -> None:
+    whole = gzip.compress("\n".join(["a,b", *ROWS]).encode())
+    spoilt = whole[:-20] if damage == "cut off" else whole[:-8] + bytes([whole[-8] ^ 1]) + whole[-7:]
+    (tmp_path / "a.csv").write_bytes(spoilt)
+    with pytest.raises(BadInput, match=r"a\.csv: cannot be read: its compressed text is damaged or breaks off"):
+        bring(SPEC)
 
 
 @pytest.mark.parametrize("width", [1, 2])

@@ -26,6 +26,10 @@ if TYPE_CHECKING:
 Option, Argument = typer.Option, typer.Argument
 AS_USUAL = Options()
 IN_MAINS = "balls pass the {race} race at a multiple of 50 or 60 Hz, which is not counted: a fault of it is hardly seen"
+FAR_FROM_STATED = (
+    "the shaft was found about as far from its stated speed as is searched: if that is wrong by still more, lines of "
+    "one race are taken for those of the other"
+)
 Train = Annotated[
     Path,
     Option(
@@ -148,6 +152,8 @@ def print_results(tests: list[CorpusResults]) -> None:
         for race, count in found.in_mains.items():
             if count:
                 print(f"  in mains   {count}: {IN_MAINS.format(race=race)}")
+        if found.far_from_stated:
+            print(f"  speeds     {found.far_from_stated}: {FAR_FROM_STATED}")
         for noisy in test.noise if scored else ():
             for name, scores in noisy.scores.models.items():
                 print(f"  {name:10} {noisy.snr_db:g} dB: {score_line(scores)}")

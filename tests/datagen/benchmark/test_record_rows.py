@@ -80,6 +80,22 @@ def test_over_the_angle_of_a_changing_shaft_nothing_falls_on_the_mains():
     assert found.facts.in_mains == ()
 
 
+@pytest.mark.parametrize(
+    ("stated", "basis", "far"),
+    [(1800.0, "measured", False), (1765.0, "measured", True), (1836.0, "measured", True), (1836.0, "nominal", False)],
+)
+def test_a_shaft_far_from_its_stated_speed_is_told(stated, basis, far):
+    time = np.arange(int(4 * RATE)) / RATE
+    # A spall of the outer race at 1800 rpm: one click every 1/107.5 s, that rings at 3 kHz.
+    age = time % (1.0 / (30.0 * 3.5848))
+    shaft = sum(np.sin(2.0 * np.pi * 30.0 * k * time) for k in (1, 2, 3))
+    clicks = 8.0 * np.exp(-800.0 * age) * np.sin(2.0 * np.pi * 3000.0 * age)
+    signal = shaking(time.size) + (shaft + clicks)[:, None]
+    found = record_rows(signal, labels(speed_rpm=stated, speed_basis=basis), Reading())
+    assert found.facts.found_rpm == pytest.approx(1800.0, rel=2e-3)
+    assert found.facts.far_from_stated is far
+
+
 def test_rows_tell_the_axis_that_they_are_of():
     found = record_rows(np.column_stack([shaking(3000), shaking(3001)[1:]]), labels(), Reading(window=1500 / RATE))
     assert [row.axis for row in found.rows] == [0, 0, 1, 1]

@@ -19,12 +19,15 @@ OF_A_CORPUS = [
     "despiked",
     "shocks_cut",
     "in_mains",
+    "far_from_stated",
     "models",
 ]
 
 
 def test_a_report_holds_plain_numbers_wherever_scores_are_and_parts_of_a_group_like_the_rest(made_scores):
-    scores = CorpusScores("out/a", True, 1, {"none": 1}, {}, {}, {}, {}, {}, {"rule": made_scores(detection_auc=HALF)})
+    scores = CorpusScores(
+        "out/a", True, 1, {"none": 1}, {}, {}, {}, {}, {}, 0, {"rule": made_scores(detection_auc=HALF)}
+    )
     said = Prediction(3, "x", "b", "none", "", 0, 0, 0, "", 1798.5, {"rule": ModelAnswer("none", 0.5, 1.0)})
     test = CorpusResults(scores, [said], [NoisyScores(-5.0, 2, scores)])
     results = Results("out/t", Options(), {"training_records": 7, "importances": {}}, [test], 1.5)

@@ -155,7 +155,7 @@ def test_each_record_is_told_with_its_alarm_its_reason_and_its_glitches():
     rows = CorpusRows(
         rows.rows[:2],
         {
-            0: RecordFacts(in_mains=("outer",), found_rpm=1798.51234),
+            0: RecordFacts(in_mains=("outer",), found_rpm=1798.51234, far_from_stated=True),
             1: RecordFacts(glitches=4, shocks=2),
             2: RecordFacts("too short", jumps=1),
         },
@@ -168,6 +168,7 @@ def test_each_record_is_told_with_its_alarm_its_reason_and_its_glitches():
     assert summary.despiked == {"records": 1, "glitches": 4}
     assert summary.shocks_cut == {"records": 1, "shocks": 2}
     assert summary.in_mains == {"outer": 1, "inner": 0}
+    assert summary.far_from_stated == 1
     first, second, third = predictions = record_predictions(tested)
     assert (first.rejected, second.despiked, third.levelled, third.rejected) == ("", 4, 1, "too short")
     assert (first.found_speed_rpm, third.found_speed_rpm) == (1798.51, None)
@@ -355,6 +356,14 @@ def test_what_is_said_of_records_that_are_not_scored_is_told_record_by_record(ca
     assert "outer (0.95 > 0.50)" in lines[0]
     assert "ball" in lines[1]
     assert "none (0.10 ≤ 0.50)" in lines[1]
+
+
+def test_speeds_that_are_probably_wrong_are_told_below_the_scores(capsys):
+    tested = judged(["none", "outer"], [[0.9, 0.1, 0.0, 0.0, 0.0], [0.05, 0.95, 0.0, 0.0, 0.0]])
+    for far in (0, 2):
+        tested = replace(tested, facts=[RecordFacts(far_from_stated=place < far) for place in range(2)])
+        print_results([CorpusResults(summarise(tested), record_predictions(tested), [])])
+        assert ("  speeds     2: the shaft was found about as far from" in capsys.readouterr().out) == bool(far)
 
 
 def test_models_have_no_scores_where_the_class_of_no_record_is_known(capsys):

@@ -20,6 +20,7 @@ from datagen.formats.csv_hints import (
     headless_hint,
     refuse_halves,
     refuse_split_numbers,
+    titled_hint,
 )
 from datagen.formats.csv_layout import CsvLayout, number
 from physics.arrays import Array
@@ -215,6 +216,7 @@ def _columns(path: Path, layout: CsvLayout, rows: list[Row]) -> Columns:
     for line, row in rows:
         if len(row) != len(names):
             hint = delimiter_hint(row, rows[len(rows) // 2][1], layout) if len(names) == 1 else ""
+            hint = hint or titled_hint(rows, layout)
             problem = f"{len(row)} cells, but the table has {len(names)} columns{hint or above_hint(whole, layout)}"
             raise BadInput(problem, f"{path}, line {line}", allowed="" if hint else ROWS_ALIKE)
     columns = {name: _numbers([row[place] for _, row in rows], layout.decimal) for place, name in enumerate(names)}

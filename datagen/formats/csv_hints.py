@@ -76,8 +76,28 @@ def cells_hint(rows: list[Row], columns: dict[str, Array], odd: dict[str, tuple[
     if len(columns) == 1 and odd:
         [(line, text)] = odd.values()
         if line == rows[0][0]:
-            hint = delimiter_hint([text], rows[len(rows) // 2][1], layout) or hint
+            hint = delimiter_hint([text], rows[len(rows) // 2][1], layout) or titled_hint(rows, layout) or hint
     return hint
+
+
+def titled_hint(rows: list[Row], layout: CsvLayout) -> str:
+    """A remark for `rows` that another delimiter parts into numbers, two or more in each of most of them, below lines
+    of titles; empty for any others."""
+    for sign in DELIMITERS:
+        last, middle = (_numbers_in(row, sign, layout) for row in (rows[-1], rows[len(rows) // 2]))
+        if sign in (layout.delimiter, layout.decimal) or min(last, middle) < 2:
+            continue
+        titles = next(place for place, row in enumerate(rows) if _numbers_in(row, sign, layout) == last)
+        if 0 < titles <= len(rows) / 2:
+            said = f"header = false, skip_lines = {rows[titles][0] - 1}, delimiter = {json.dumps(sign)}"
+            return f"; did you mean csv = {{{said}}}?"
+    return ""
+
+
+def _numbers_in(row: Row, sign: str, layout: CsvLayout) -> int:
+    """Into how many numbers a delimiter parts a row; 0 if one of its cells is anything else, or none."""
+    cells = [cell for cell in _parts(layout.delimiter.join(row[1]), sign) if cell.strip()]
+    return len(cells) if all(math.isfinite(layout.number(cell)) for cell in cells) else 0
 
 
 def headless_hint(names: list[str], layout: CsvLayout) -> str:

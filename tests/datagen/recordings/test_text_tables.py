@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gzip
+import re
 import zipfile
 from collections.abc import Callable
 from pathlib import Path
@@ -345,6 +346,18 @@ def test_lines_above_the_header_come_with_a_way_out(bring: Bring, tmp_path: Path
     ):
         bring(SPEC)
     assert len(bring(SPEC + "csv = {skip_lines = 1}\n")) == 1
+
+
+@pytest.mark.parametrize("title", ["Date\t2024", "Made in Ulm, Germany\t1", "x"])
+def test_lines_of_titles_above_numbers_of_another_delimiter_come_with_the_layout(
+    title: str, bring: Bring, tmp_path: Path
+) -> None:
+    numbers = "\n".join(f"{first!r}\t{second!r}\t1" for first, second in CELLS)
+    (tmp_path / "a.csv").write_text(f"Header\n{title}\n\nrate\t0.001\nData\n{numbers}\n")
+    said = 'csv = {header = false, skip_lines = 5, delimiter = "\\t"}'
+    with pytest.raises(BadInput, match=re.escape(f"did you mean {said}?")):
+        bring(SPEC)
+    assert bring(SPEC.replace('y = "a"', 'y = "1"') + said).signal(0, "y").size == len(CELLS)
 
 
 @pytest.mark.parametrize("encoding", ["utf-8", "latin-1"])

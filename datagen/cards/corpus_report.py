@@ -36,9 +36,13 @@ def write_report(folder: str | Path, out: str | Path | None = None) -> Report:
     everything is drawn.
     """
     folder = Path(folder)
-    out = folder / "report" if out is None else Path(out)
-    facts = corpus_facts(folder)
-    _check_folder(out)
+    if out is None:
+        facts, out = corpus_facts(folder), folder / "report"  # what is no corpus is told as that
+        _check_folder(out)
+    else:
+        out = Path(out)
+        _check_folder(out)
+        facts = corpus_facts(folder)
     if not facts.info.records:
         raise BadInput("this corpus holds no records yet", str(folder))
     contents = _contents(folder, facts, out)

@@ -27,19 +27,23 @@ TEXTS = "US"
 
 class NumericVariables(dict[str, NDArray[Any]]):
     """The variables of a file that hold numbers, by name; `unread` are the names of those that hold texts, tables or
-    sparse matrices. Texts that are numbers count as these."""
+    sparse matrices. Texts that are numbers count as these; their names are `told`, and fit no pattern: what "*_time" is
+    to find is a signal, not a date beside it."""
 
     def __init__(self) -> None:
         super().__init__()
         self.unread: list[str] = []
+        self.told: set[str] = set()
 
     def add(self, name: str, array: NDArray[Any] | None) -> None:
         """Take an array of numbers or of texts by its name; None stands for anything else."""
         numbers = None if array is None else as_numbers(array)
         if numbers is None:
             self.unread.append(name)
-        else:
-            self[name] = numbers
+            return
+        self[name] = numbers
+        if numbers is not array:
+            self.told.add(name)
 
 
 def as_numbers(array: NDArray[Any]) -> NDArray[Any] | None:
@@ -114,7 +118,9 @@ def _named(arrays: Arrays, wish: str, path: Path, field: str) -> tuple[str, str 
     name = indexed["name"] if indexed else wish
     # Brackets mean themselves: they count the elements of MATLAB's arrays of structures and cells.
     pattern = name.replace("[", "[[]")
-    known = [name] if name in arrays else [held for held in arrays if _is_pattern(name) and fnmatchcase(held, pattern)]
+    told = arrays.told if isinstance(arrays, NumericVariables) else ()
+    fitting = (held for held in arrays if _is_pattern(name) and fnmatchcase(held, pattern) and held not in told)
+    known = [name] if name in arrays else list(fitting)
     if len(known) > 1:
         raise BadInput(f"fits {len(known)} variables: {', '.join(sorted(known)[:MOST_NAMES])}", str(path), field, wish)
     return (known[0], indexed["places"] if indexed else None) if known else None

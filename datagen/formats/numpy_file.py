@@ -64,9 +64,9 @@ def read_npy(path: Path) -> Arrays:
         if "Python objects" in str(problem):
             raise _of_objects("it", path) from None
         raise BadInput(f"cannot be read as an .npy file: {problem}", str(path)) from None
-    if array.dtype.names is None:
-        return {ONLY_NAME: array}
     found = NumericVariables()
-    for field in array.dtype.names:
+    if array.dtype.names is None:
+        found.add(ONLY_NAME, array)
+    for field in array.dtype.names or ():
         found.add(f"{ONLY_NAME}.{field}", array[field])
     return found

@@ -198,6 +198,23 @@ def test_a_number_that_is_written_as_a_text_is_one(
             choose(arrays, f"{mark}who", path, "rate_hz")
 
 
+def test_a_date_beside_a_signal_fits_no_pattern(tmp_path: Path) -> None:
+    path = tmp_path / "a.mat"
+    scipy.io.savemat(path, {"X097_DE_time": np.arange(9.0), "start_time": "20240101"})
+    arrays = read_arrays(path, None, PLAIN)
+    assert choose(arrays, "*_time", path, "y").tolist() == list(range(9))
+    assert choose(arrays, "start_time", path, "y").tolist() == 20240101.0
+
+
+def test_an_array_of_numbers_that_are_written_as_texts_is_one_of_numbers(tmp_path: Path) -> None:
+    path = tmp_path / "a.npy"
+    np.save(path, np.array(["1.5", "2"]))
+    assert choose(read_arrays(path, None, PLAIN), "data", path, "y").tolist() == [1.5, 2.0]
+    np.save(path, np.array(["1.5", "x"]))
+    with pytest.raises(NoVariable, match="the file holds no numbers"):
+        choose(read_arrays(path, None, PLAIN), "data", path, "y")
+
+
 def test_the_fields_of_a_structured_array_come_by_name(tmp_path: Path) -> None:
     table = np.zeros(20, dtype=[("time", "f8"), ("acc", "f4", (3,)), ("note", "U4")])
     table["time"], table["acc"], table["note"] = np.arange(20.0), np.arange(60.0).reshape(20, 3), "good"

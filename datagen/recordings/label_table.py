@@ -98,6 +98,8 @@ def _allows_text(annotation: Any) -> bool:
 
 
 def _plain(cell: str, decimal: str) -> float | int | str:
+    if "_" in cell:  # Python reads 1052 from 105_2, which is a name
+        return cell
     for kind in (int, float):
         try:
             return kind(cell.replace(decimal, "."))

@@ -87,6 +87,16 @@ def test_a_label_table_with_decimal_commas_says_the_same(
     assert json.loads(corpus.waveform(0, "provenance"))["notes"] == {"hp": 1.5}
 
 
+def test_a_name_whose_figures_are_joined_is_no_number(bring: Bring, tmp_path: Path) -> None:
+    np.save(tmp_path / "a.npy", noise(400))
+    (tmp_path / "t.csv").write_text("file,y,code,count\na.npy,data,105_2,1052\n")
+    corpus = bring(
+        '[[recording]]\nname = "all"\ntable = "t.csv"\nunit = "g"\nrate_hz = 12000\nspeed_rpm = 1800\n'
+        'bearing = "skf_6205"\nnote_columns = ["code", "count"]\n'
+    )
+    assert json.loads(corpus.waveform(0, "provenance"))["notes"] == {"code": "105_2", "count": 1052}
+
+
 def test_two_axes_and_two_channels_become_records_of_their_own(bring: Bring, tmp_path: Path) -> None:
     samples = noise(1200).reshape(300, 4)
     np.save(tmp_path / "a.npy", samples)

@@ -162,7 +162,7 @@ def selection(recipe: Recipe, limit: int | None, records: Sequence[int] | None) 
     if limit is not None and records is not None:
         raise BadInput("give only one of them: a limit or a list of records", field="--limit, --records")
     if records is not None:
-        if any(isinstance(record, bool) for record in records):
+        if any(isinstance(record, bool | np.bool_) for record in records):
             raise BadInput("this is a mask", field="--records", allowed="the indices of records")
         listed = [index(record) for record in records]
         if not listed:

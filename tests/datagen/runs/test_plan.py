@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -69,9 +70,10 @@ def test_a_limit_may_be_one_of_numpys_numbers(tiny: Recipe) -> None:
     assert json.dumps(selection(tiny, np.int64(3), None)) == "[[0, 3]]"  # as the manifest keeps them
 
 
-def test_a_mask_is_no_list_of_records(tiny: Recipe) -> None:
+@pytest.mark.parametrize("kind", [list, np.array])
+def test_a_mask_is_no_list_of_records(kind: Callable[[list[bool]], Sequence[int]], tiny: Recipe) -> None:
     with pytest.raises(BadInput, match="--records: this is a mask; allowed: the indices of records"):
-        selection(tiny, None, [True, False, True])
+        selection(tiny, None, kind([True, False, True]))
 
 
 def test_an_empty_list_of_records_is_refused(tiny: Recipe) -> None:

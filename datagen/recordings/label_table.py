@@ -55,8 +55,14 @@ def read_label_table(path: Path, note_columns: tuple[str, ...]) -> list[TableRow
 
 def _delimiter(path: Path) -> str:
     """What parts the cells of a table: a comma, unless its first line has none but semicolons or tabulators."""
-    [(_, heads), *_] = read_csv_rows(path, most=1) or [(0, [""])]
-    return next((sign for sign in ";\t" if len(heads) == 1 and sign in heads[0]), ",")
+    return next((sign for sign in ",;\t" if _parts_heads(path, sign)), ",")
+
+
+def _parts_heads(path: Path, sign: str) -> bool:
+    try:
+        return any(len(heads) > 1 for _, heads in read_csv_rows(path, sign, most=1))
+    except BadInput:  # a quote that ends before another sign
+        return False
 
 
 def _check_header(header: list[str], note_columns: tuple[str, ...], place: str) -> None:

@@ -67,14 +67,15 @@ def test_counts_of_a_packed_file_come_back_in_m_s2_with_each_records_own_scale(b
     assert check_corpus(tmp_path / "corpus").problems == ()
 
 
+@pytest.mark.parametrize("quote", ["", '"'])
 @pytest.mark.parametrize(("sign", "encoding"), [(";", "utf-8-sig"), ("\t", "utf-8")])
 def test_a_label_table_with_decimal_commas_says_the_same(
-    sign: str, encoding: str, bring: Bring, tmp_path: Path
+    sign: str, encoding: str, quote: str, bring: Bring, tmp_path: Path
 ) -> None:
     np.save(tmp_path / "a.npy", noise(400).reshape(200, 2))
     (tmp_path / "t.csv").write_text(
-        sign.join(("file", "y", "extent_mm", "location", "speed_rpm", "hp")) + "\r\n"
-        + sign.join(("a.npy", "data[:,1]", "0,178", "inner", "1796,5", "1,5")),
+        sign.join(f"{quote}{name}{quote}" for name in ("file", "y", "extent_mm", "location", "speed_rpm", "hp"))
+        + "\r\n" + sign.join(("a.npy", "data[:,1]", "0,178", "inner", "1796,5", "1,5")),
         encoding=encoding, newline="",
     )  # fmt: skip
     corpus = bring(

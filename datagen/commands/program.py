@@ -136,10 +136,15 @@ def _check_json(json_file: Path | None, **others: Any) -> None:
     if json_file is None:
         return
     require_file(json_file, "--json")
-    known = {os.path.realpath(path) for path in others.values() if isinstance(path, Path)}
+    known = {os.path.realpath(named) for named in others.values() if _is_place(named)}
     if os.path.realpath(json_file) in known and (json_file.is_file() or not json_file.exists()):
         problem = "the results would replace what another option or argument names"
         raise BadInput(problem, field="--json", value=str(json_file), allowed="a file of its own")
+
+
+def _is_place(named: Any) -> bool:
+    """Whether the value of an option or argument is a path, as a text may be that can also be the name of a scene."""
+    return isinstance(named, Path) or (isinstance(named, str) and os.path.isfile(named))
 
 
 def write_json(path: Path | None, result: Any) -> None:

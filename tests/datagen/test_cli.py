@@ -281,9 +281,10 @@ def test_results_do_not_replace_what_another_option_or_argument_names(tiny_recip
     link.symlink_to(tiny_recipe)
     before = tiny_recipe.read_text()
     for given in (tiny_recipe, link):
-        code, _, message = run("check", tiny_recipe, "--json", given)
-        assert code == 2
-        assert f'--json = "{given}": the results would replace what another option or argument names' in message
+        for command in (("check", tiny_recipe), ("chart", tiny_recipe, "--quick", "--out", tmp_path / "charts")):
+            code, _, message = run(*command, "--json", given)
+            assert code == 2
+            assert f'--json = "{given}": the results would replace what another option or argument names' in message
     assert tiny_recipe.read_text() == before
     assert run("schema", "--out", tmp_path / "s.json", "--json", tmp_path / "s.json").exit_code == 2
     assert not (tmp_path / "s.json").exists()

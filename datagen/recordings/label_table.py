@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, get_args
@@ -9,7 +10,7 @@ from typing import Any, get_args
 from pydantic import ValidationError
 
 from datagen.errors import BadInput
-from datagen.files.csv_rows import read_csv_rows
+from datagen.files.csv_rows import Row, read_csv_rows
 from datagen.recordings.settings import RecordingSettings
 from datagen.settings.problems import bad_settings
 from physics.spelling import suggestion
@@ -17,6 +18,9 @@ from physics.spelling import suggestion
 FILE_COLUMN = "file"
 NOT_COLUMNS = ("csv", "channel", "tach", "envelope_band_hz", "notes")
 SETTINGS = tuple(name for name in RecordingSettings.model_fields if name not in NOT_COLUMNS)
+WITH_POINT = re.compile(r"[-+]?\d+\.\d+")
+# What is a thousand and more if the comma is no decimal sign.
+THOUSANDS = re.compile(r"[-+]?[1-9]\d{0,2},\d{3}")
 
 
 @dataclass(frozen=True)
@@ -46,8 +50,11 @@ def read_label_table(path: Path, note_columns: tuple[str, ...]) -> list[TableRow
     first, heads = rows[0]
     header = [cell.strip() for cell in heads]
     _check_header(header, note_columns, f"{path}, line {first}")
+    decimal = "." if delimiter == "," else ","
+    if decimal == ",":
+        _refuse_two_decimals(header, rows[1:], path)
     return [
-        _row(header, cells, note_columns, f"{path}, line {line}", "." if delimiter == "," else ",")
+        _row(header, cells, note_columns, f"{path}, line {line}", decimal)
         for line, cells in rows[1:]
         if any(cell.strip() for cell in cells)
     ]
@@ -76,6 +83,17 @@ def _check_header(header: list[str], note_columns: tuple[str, ...], place: str) 
     for column in (FILE_COLUMN, *note_columns):
         if column not in header:
             raise BadInput("this column is missing", place, column)
+
+
+def _refuse_two_decimals(header: list[str], rows: list[Row], path: Path) -> None:
+    """Refuse a number whose comma may stand between thousands, as others of the table have a point before decimals."""
+    places = [place for place, name in enumerate(header) if name in SETTINGS and not _is_text(name)]
+    told = [(line, place, cells[place].strip()) for line, cells in rows for place in places if place < len(cells)]
+    odd = next(((line, header[place], cell) for line, place, cell in told if THOUSANDS.fullmatch(cell)), None)
+    if odd and any(WITH_POINT.fullmatch(cell) for _, _, cell in told):
+        line, name, cell = odd
+        problem = "other numbers of this table have a point as decimal sign"
+        raise BadInput(problem, f"{path}, line {line}", name, cell, "numbers without signs between thousands")
 
 
 def _row(header: list[str], cells: list[str], note_columns: tuple[str, ...], place: str, decimal: str) -> TableRow:

@@ -166,6 +166,7 @@ def test_records_of_unknown_bearings_may_be_in_several_splits(bring: Bring, mat:
     [
         ("fil,location\na.mat,inner\n", 't.csv, line 1: fil: unknown column; did you mean "file"?'),
         ("file;load_n\na.mat;1.797,5\n", 't.csv, line 2: load_n = "1.797,5"; allowed: a number from 0 to 1e+07, or'),
+        ('file\tload_n\tspeed_rpm\na.mat\t0.5\t"1,797"\n', 't.csv, line 2: speed_rpm = "1,797": other numbers of this'),
         ("file,location\n,inner\n", "t.csv, line 2: file: this cell is empty"),
         ("file,location\na.mat\n", "t.csv, line 2: 1 cells, but the table has 2 columns"),
         ("file,location\na.mat,iner\n", 't.csv, line 2: location = "iner"; allowed: none, outer, inner'),

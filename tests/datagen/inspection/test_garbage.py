@@ -11,7 +11,7 @@ from command_line import run
 
 from datagen.corpus_files.index import index_path, read_index
 from datagen.corpus_files.manifest import manifest_path
-from datagen.corpus_files.shard import sidecar_path
+from datagen.corpus_files.shard import LABEL_COLUMNS, sidecar_path
 from datagen.errors import BadInput
 from datagen.inspection.check import check_corpus
 
@@ -98,6 +98,7 @@ def test_a_manifest_nested_without_end_is_told(copy: Path) -> None:
         {"sha256": None},
         {"labels": {}},
         {"labels": {"record": [0]}},
+        {"labels": {column: [] for column in LABEL_COLUMNS}},
     ],
 )
 def test_a_sidecar_that_is_none_is_damage(change: dict[str, object], copy: Path) -> None:

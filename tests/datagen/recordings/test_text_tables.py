@@ -360,6 +360,14 @@ def test_lines_of_titles_above_numbers_of_another_delimiter_come_with_the_layout
     assert bring(SPEC.replace('y = "a"', 'y = "1"') + said).signal(0, "y").size == len(CELLS)
 
 
+def test_decimal_commas_below_titles_are_not_taken_for_a_delimiter(bring: Bring, tmp_path: Path) -> None:
+    numbers = "\n".join(repr(first).replace(".", ",") for first, _ in CELLS)
+    (tmp_path / "a.csv").write_text(f"Header\nx\n{numbers}\n")
+    with pytest.raises(BadInput) as caught:
+        bring(SPEC.replace('y = "a"', 'y = "Header"') + 'csv = {delimiter = ";", decimal = ","}\n')
+    assert "delimiter" not in str(caught.value)
+
+
 @pytest.mark.parametrize("encoding", ["utf-8", "latin-1"])
 @pytest.mark.parametrize("workbook", [False, True])
 def test_a_packed_table_is_called_so(workbook: bool, encoding: str, bring: Bring, tmp_path: Path) -> None:

@@ -64,8 +64,8 @@ def sized_records(
     table = _rows(folder, splits)
     able = [not reason_against(labels) for labels in table.to_dict("records")]
     chosen = table[np.array(able, dtype=np.bool_) & (table["record"].isin(only) if only is not None else True)]
-    with closing(OpenShards(folder)) as shards:
-        for shard, rows in chosen.groupby("shard", sort=True):
+    for shard, rows in chosen.groupby("shard", sort=True):
+        with closing(OpenShards(folder)) as shards:  # none is read again, and each open one takes megabytes
             for labels in rows.to_dict("records"):
                 with shards.reading(str(shard)) as file:
                     stored = stored_record(file, int(labels["position"]), int(labels["record"]))

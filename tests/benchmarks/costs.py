@@ -27,20 +27,11 @@ from physics.request import Accurate
 from physics.scene import Scene
 from physics.simulate import simulate
 from physics.warming import warm_up
+from tests.benchmarks.resident import by_number, largest_resident
 
 ROOT = Path(__file__).resolve().parents[2]
 RATE, ROUNDS, SLIP_SEED = 65536.0, 5, 1
 LENGTHS, BALLS, RECORDS = (0.5, 1.0, 2.0, 4.0, 8.0), (8, 12, 16, 24, 32), (16, 64, 192)
-MAKING = """
-import resource, sys
-from datagen.cli import main
-sys.argv = ["spallgen", "generate", "gearbox_rig", "--workers", "1", "--limit", sys.argv[1], "--out", sys.argv[2]]
-try:
-    main()
-except SystemExit as end:
-    assert not end.code
-print(max(resource.getrusage(who).ru_maxrss for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)))
-"""
 
 
 def starts() -> tuple[float, float]:
@@ -78,12 +69,10 @@ def with_balls(balls: int) -> Scene:
 
 
 def resident(records: int) -> float:
-    """Largest resident size (MB, as the package counts them: 1e6 bytes) of a process that makes so many records by
-    itself."""
+    """Largest resident size (MB) of a process that makes so many records by itself."""
     with tempfile.TemporaryDirectory() as folder:
-        command = [sys.executable, "-c", MAKING, str(records), str(Path(folder) / "corpus")]
-        done = subprocess.run(command, check=True, cwd=ROOT, capture_output=True, text=True)
-    return float(done.stdout.split()[-1]) * 1024.0 / 1e6  # Linux tells it in units of 1024 bytes
+        limit, out = str(records), str(Path(folder) / "corpus")
+        return largest_resident("generate", "gearbox_rig", "--workers", "1", "--limit", limit, "--out", out)
 
 
 def page(report: dict[str, Any]) -> str:
@@ -101,9 +90,7 @@ def page(report: dict[str, Any]) -> str:
             "- Milliseconds a second of record, G0 slipping, by balls of both rows: "
             + ", ".join(f"{1e3 * used:.1f} ({count})" for count, used in report["seconds_by_balls"].items())
             + ".",
-            "- Largest resident size of a process, by records made: "
-            + ", ".join(f"{size:.0f} MB ({records})" for records, size in report["resident_mb_by_records"].items())
-            + ".",
+            f"- Largest resident size of a process, by records made: {by_number(report['resident_mb_by_records'])}.",
             "",
             f"Measured on {in_words(report['made_with'])}.",
         ]

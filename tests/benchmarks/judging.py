@@ -1,8 +1,8 @@
 """How fast records are judged: features and verdicts of `classify`, and the estimates of `size`.
 
 PYTHONPATH=. python tests/benchmarks/judging.py [--records 1000] [--sizes 40] [--workers 2] writes docs/judging.json and
-the table of docs/pipeline.md: wall clock on a machine that does nothing else, corpora made beforehand and learners
-trained.
+the tables of docs/pipeline.md: wall clock on a machine that does nothing else, corpora made beforehand and learners
+trained; and how large a process becomes.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import time
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -32,9 +32,11 @@ from datagen.sizing.estimators import default_estimator
 from datagen.sizing.sized_records import sized_records
 from datagen.versions import in_words, measured_on
 from docs.marked_tables import write_marked
+from tests.benchmarks.resident import by_number, largest_resident
 
 ROOT = Path(__file__).resolve().parents[2]
 LEARNED_FROM = 160
+RESIDENT = (50, 400)
 Result = TypeVar("Result")
 TRAINING = Reading(speed_error=SPEED_ERROR, lowest_bandwidth=LOWEST_BANDWIDTH, copies_db=COPIES_DB)
 
@@ -81,20 +83,40 @@ def sizing(scratch: Path, records: int) -> dict[str, float]:
     return {"median_s": statistics.median(spent), "longest_s": max(spent), "records": len(asked)}
 
 
-def page(found: dict[str, dict[str, float]], records: int, workers: int, machine: str) -> str:
-    """The table, as Markdown."""
-    classified, sized = found["classify"], found["size"]
+def resident(scratch: Path) -> dict[str, dict[str, float]]:
+    """Largest resident size (MB) of a process that judges a corpus by itself, by command and number of records."""
+    work = {"features": ("corpus", ("--out", str(scratch / "features.csv"))), "size": ("size_ladder", ())}
+    return {
+        command: {
+            str(records): largest_resident(
+                command, str(made(name, scratch / f"{name}_{records}", spread(name, records))), "--workers", "1", *more
+            )
+            for records in RESIDENT
+        }
+        for command, (name, more) in work.items()
+    }
+
+
+def page(report: dict[str, Any]) -> str:
+    """The tables of the report, measured now or read from its file, as Markdown."""
+    classified, sized, largest = report["classify"], report["size"], report["resident_mb"]
     return "\n".join(
         [
             "| what | seconds |",
             "|---|---|",
-            f"| features of {records} records of 1 s, two axes, {workers} workers | {classified['features_s']:.1f} |",
+            f"| features of {report['records']} records of 1 s, two axes, {report['workers']} workers | "
+            f"{classified['features_s']:.1f} |",
             f"| verdicts on them by the rule and all three learners | {classified['verdicts_s']:.1f} |",
             f"| size of the spall in one record of 1 s at 65 536 Hz, median of {sized['records']:.0f} | "
             f"{sized['median_s']:.2f} |",
             f"| the longest of them | {sized['longest_s']:.2f} |",
             "",
-            f"Wall clock. Measured on {machine}.",
+            "| one process, by records judged | largest resident size |",
+            "|---|---|",
+            f"| `features` of `corpus` | {by_number(largest['features'])} |",
+            f"| `size` of `size_ladder` | {by_number(largest['size'])} |",
+            "",
+            f"Wall clock. Measured on {in_words(report['made_with'])}.",
         ]
     )
 
@@ -108,14 +130,16 @@ def main() -> None:
     options = parser.parse_args()
     with tempfile.TemporaryDirectory(prefix="spallgen-judging-") as name:
         scratch = Path(name)
-        found = {
+        report = {
+            "records": options.records,
+            "workers": options.workers,
+            "made_with": measured_on("numpy", "scipy", "scikit-learn", "numba"),
             "classify": classifying(scratch, options.records, options.workers),
             "size": sizing(scratch, options.sizes),
+            "resident_mb": resident(scratch),
         }
-    made_with = measured_on("numpy", "scipy", "scikit-learn", "numba")
-    facts = {"records": options.records, "workers": options.workers, "made_with": made_with, **found}
-    (ROOT / "docs" / "judging.json").write_text(json.dumps(facts, indent=1) + "\n", encoding="utf-8")
-    table = page(found, options.records, options.workers, in_words(made_with))
+    (ROOT / "docs" / "judging.json").write_text(json.dumps(report, indent=1) + "\n", encoding="utf-8")
+    table = page(report)
     write_marked(ROOT / "docs" / "pipeline.md", "judging", __file__, table)
     print(table)
 

@@ -26,10 +26,12 @@ from datagen.corpus_files.shard import finished_shards
 from datagen.distributions.distribution import Fixed
 from datagen.recipes.recipe import Recipe, load_recipe
 from datagen.recipes.store_settings import Store
+from datagen.records.record import make_record
 from datagen.runs.generate import corpus_identity, generate
 from datagen.runs.plan import plan_shards
 from datagen.runs.task import make_shard
 from datagen.runs.workers import Engine
+from datagen.scenarios.sampling import draw_scenario
 from datagen.versions import in_words, measured_on
 from docs.marked_tables import write_marked
 from physics.warming import warm_up
@@ -113,6 +115,17 @@ def shares(recipe: Recipe, records: int) -> dict[str, float]:
     return share | {"all else": 1.0 - sum(share.values())}
 
 
+def costliest(recipe: Recipe, records: int) -> dict[str, float]:
+    """Of the first `records` the one that takes longest to make, and its share of the processor time of all."""
+    spent = []
+    with threadpool_limits(limits=1):
+        for record in range(records):
+            begin = time.process_time()
+            make_record(draw_scenario(recipe, record))
+            spent.append(time.process_time() - begin)
+    return {"record": spent.index(max(spent)), "share": max(spent) / sum(spent)}
+
+
 def wall_seconds(recipe: Recipe, records: int, workers: int) -> float:
     """Wall-clock seconds of a run with so many workers."""
     with scratch() as folder:
@@ -142,6 +155,7 @@ def measure(records: int, rounds: int) -> dict[str, object]:
             spent = statistics.median(run[0] for run in runs)
             row[compression] = {"real_time": runs[0][1] / spent, "bytes_per_second": runs[0][2] / runs[0][1]}
         row["shares"] = shares(plain(recipe, COMPRESSIONS[0]), records)
+        row["costliest"] = costliest(recipe, records)
         rows[name] = row
         print(name, json.dumps(row), flush=True)
     return {
@@ -164,6 +178,9 @@ def page(found: dict[str, object]) -> str:
     for stage in (*STAGES, "all else"):
         cells = " | ".join(f"{100.0 * row['shares'][stage]:.0f} %" for row in rows.values())
         lines.append(f"| {stage} | {cells} |")
+    dearest = [row["costliest"] for row in rows.values()]
+    cells = " | ".join(f"{100.0 * one['share']:.0f} % ({one['record']})" for one in dearest)
+    lines.append(f"| of making the records, the costliest one (its number) | {cells} |")
     made: dict[str, str] = found["made_with"]  # type: ignore[assignment]
     pairs: dict[str, dict[str, float]] = found["two_workers"]  # type: ignore[assignment]
     together = "; ".join(

@@ -15,10 +15,6 @@ def stored(name):
     return json.loads((DOCS / f"{name}.json").read_text(encoding="utf-8"))
 
 
-def judged(report):
-    return judging.page(report, report["records"], report["workers"], in_words(report["made_with"]))
-
-
 def reference_table(long_repeated):
     """The table of the reference scenes, had these repeated in the longer record."""
     report = stored("reference_scenes")
@@ -33,7 +29,7 @@ def reference_table(long_repeated):
         ("docs/accuracy.md", "changed_scenes", changed_scenes.table),
         ("docs/accuracy.md", "orders", orders.page),
         ("docs/pipeline.md", "costs", costs.page),
-        ("docs/pipeline.md", "judging", judged),
+        ("docs/pipeline.md", "judging", judging.page),
         ("docs/pipeline.md", "pipeline", pipeline.page),
         ("README.md", "reference_scenes", lambda report: reference_table(report["scenes"])),
     ],

@@ -37,7 +37,7 @@ def read_background(path: Path, channels: tuple[str, ...] | None, layout: CsvLay
     rate = float(np.asarray(arrays[RATE_NAME]).squeeze()) if RATE_NAME in arrays else None
     table = _named(arrays, channels, path) if channels else _only(arrays, path)
     if table.dtype.kind not in "iuf" or table.ndim != 2 or not table.size:
-        raise BadInput("no table of numbers, samples along its first dimension", str(path), "file")
+        raise _no_table(path)
     if table.shape[1] > MOST_CHANNELS:
         raise BadInput(
             f"it has {table.shape[1]} columns", str(path), "channels", allowed='one or two, as in "data[:,0]"'
@@ -54,10 +54,16 @@ def _named(arrays: Arrays, channels: tuple[str, ...], path: Path) -> NDArray[np.
 
 def _only(arrays: Arrays, path: Path) -> NDArray[np.generic]:
     names = [name for name in arrays if name != RATE_NAME]
+    if not names:
+        raise _no_table(path)
     if len(names) != 1:
         raise BadInput(f"it has {len(names)} variables", str(path), "channels", allowed=f"one or two of {names}")
     found = np.asarray(arrays[names[0]])
     return found[:, None] if found.ndim == 1 else found
+
+
+def _no_table(path: Path) -> BadInput:
+    return BadInput("no table of numbers, samples along its first dimension", str(path), "file")
 
 
 def _finite(table: NDArray[np.generic], path: Path) -> NDArray[np.float32]:

@@ -84,7 +84,8 @@ def test_a_run_is_logged_with_the_options_that_it_was_learned_with_and_scored_wi
     recorded = tmp_path / "recorded"
     shutil.copytree(divided, recorded)
     manifest = json.loads((recorded / "manifest.json").read_text())
-    (recorded / "manifest.json").write_text(json.dumps(manifest | {"origin": "imported"}))
+    as_imported = {"origin": "imported", "recipe": manifest["recipe"] | {"spec": {}}}
+    (recorded / "manifest.json").write_text(json.dumps(manifest | as_imported))
     done = classify("--train", learned[0], "--test", recorded, "--reject", 0.25, "--json", tmp_path / "results.json")
     assert done.exit_code == 0, done.output
     began, ended = (json.loads(line) for line in (recorded / "scored_runs.jsonl").read_text().splitlines())

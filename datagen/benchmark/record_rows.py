@@ -33,8 +33,8 @@ if TYPE_CHECKING:
     import pandas
 
 
-# Share of the distance within which the shaft is looked for beside its stated speed from which it is found too far off:
-# of simulated and recorded machines whose speed is right one in 200 is.
+# A speed found beyond this share of the distance that is searched beside the stated one is far from it: so it is on one
+# machine in 200, simulated or recorded, whose stated speed is right.
 EDGE = 0.8
 
 

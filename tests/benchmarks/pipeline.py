@@ -180,7 +180,7 @@ def page(found: dict[str, object]) -> str:
         lines.append(f"| {stage} | {cells} |")
     dearest = [row["costliest"] for row in rows.values()]
     cells = " | ".join(f"{100.0 * one['share']:.0f} % ({one['record']})" for one in dearest)
-    lines.append(f"| of making the records, the costliest one (its number) | {cells} |")
+    lines.append(f"| the costliest record (its number), of making alone | {cells} |")
     made: dict[str, str] = found["made_with"]  # type: ignore[assignment]
     pairs: dict[str, dict[str, float]] = found["two_workers"]  # type: ignore[assignment]
     together = "; ".join(

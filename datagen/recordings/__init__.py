@@ -2,7 +2,7 @@
 
 - `spec_files`: where a SPEC is found; `spec`: the whole; `settings`: what it says of a recording; `values`: its numbers
 - `listing`: which records it asks for; `part_files`: in which files, with `root`, `file_names` and `label_table`
-- `source`: one opened file; `recorded`: its records; `doubts`: what is odd about them;
+- `opened_files`: each opened once, as a `source`; `recorded`: its records; `doubts`: what is odd about them;
   `unchanged`: files that must not change during an import
 - `sample_times`: the sampling rate; `stated_rate`: whether the file tells another
 - `shaft_speed`: the speed, with the `pulse_times` and `pulses` of a tach

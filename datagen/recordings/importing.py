@@ -18,8 +18,8 @@ from datagen.progress import Say, Throttle, ignore
 from datagen.recordings.dataset import imported_dataset
 from datagen.recordings.import_plan import ImportPlan, PlannedRecord
 from datagen.recordings.listing import Listing, Request, list_requests
+from datagen.recordings.opened_files import remembered_files, source_hash
 from datagen.recordings.recorded import Recorded, read_recording
-from datagen.recordings.source import remembered_files, source_hash
 from datagen.recordings.spec import Spec
 from datagen.recordings.spec_files import shipped_specs
 from datagen.recordings.staging import staged, writing

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import math
 from collections.abc import Iterator, Mapping
@@ -19,9 +20,10 @@ from datagen.recipes.signal_settings import FEWEST_STORED_SAMPLES
 from datagen.recordings.description import contact_numbers, recording_labels
 from datagen.recordings.doubts import level_doubts, scale_doubts, speed_doubts, standing_doubt
 from datagen.recordings.listing import Request
+from datagen.recordings.opened_files import open_source, source_hash
 from datagen.recordings.settings import UNITS
 from datagen.recordings.shaft_speed import shaft_speeds, told_course
-from datagen.recordings.source import FILL, Source, open_source, samples_hash, source_hash, span_of
+from datagen.recordings.source import FILL, Source, span_of
 from datagen.recordings.stated_rate import rate_doubts
 from datagen.recordings.values import RANGES, FromVariable, in_range
 from labels.band import holds_a_line
@@ -29,6 +31,7 @@ from labels.dead_sensor import is_dead
 from labels.kurtogram import most_impulsive_band
 from labels.variables import AXES
 from physics.angular_speed import RPM_PER_HZ
+from physics.arrays import Array
 
 LARGEST_ACCELERATION = 1e9
 Key = tuple[float, int, tuple[str, ...], tuple[str, ...], bool]
@@ -108,7 +111,7 @@ def read_recording(request: Request) -> Iterator[Recorded]:
             rate=rate,
             labels=labels | of_piece,
             provenance=_provenance(source, factor, start, stop, {"pulses": speed.mended, "samples": filled}, dead),
-            content=samples_hash(rate, *samples.T),
+            content=_samples_hash(rate, *samples.T),
             shaft_angle=speed.angle,
             dead=dead,
             doubts=of_file
@@ -248,3 +251,11 @@ def _provenance(
         | ({"no_signal": dead} if dead else {}),
         allow_nan=False,
     )
+
+
+def _samples_hash(rate: float, *axes: Array) -> str:
+    """Hash by which two recordings with the same samples are known."""
+    digest = hashlib.sha256(repr(rate).encode())
+    for axis in axes:
+        digest.update(np.ascontiguousarray(axis).tobytes())
+    return digest.hexdigest()

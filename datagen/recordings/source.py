@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 import math
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -17,16 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datagen.errors import BadInput
-from datagen.files.digest import file_hash
 from datagen.formats.arrays import Arrays, NoVariable, choose, chosen
 from datagen.formats.csv_file import Columns
-from datagen.formats.csv_layout import CsvLayout
 from datagen.formats.placeholders import filled, place_without_ending
-from datagen.formats.reading import read_arrays
 from datagen.recipes.signal_settings import FEWEST_STORED_SAMPLES
 from datagen.recordings.listing import Request
 from datagen.recordings.sample_times import rate_of
-from datagen.recordings.unchanged import first_state, require_unchanged
 from datagen.recordings.values import RANGES, FromVariable, in_range
 from physics.arrays import Array
 
@@ -267,50 +259,3 @@ def _within(found: NDArray[Any], span: Span) -> NDArray[Any]:
         return found
     first = min(int(span[0] * found.size), found.size - 1)
     return found[first : max(math.ceil(span[1] * found.size), first + 1)]
-
-
-def open_source(request: Request) -> Source:
-    """The opened file of a request; the file read last is kept, as its channels come one after the other.
-
-    Raises BadInput if it cannot be read, or has changed since it was first opened.
-    """
-    require_unchanged(request.path)
-    layout = request.settings.get("csv", CsvLayout())
-    return Source(request, _opened(request.path, request.settings.get("format"), layout))
-
-
-@lru_cache(maxsize=1)
-def _opened(path: Path, kind: str | None, layout: CsvLayout) -> Arrays:
-    return read_arrays(path, kind, layout)
-
-
-@lru_cache(maxsize=100_000)
-def source_hash(path: Path) -> str:
-    """SHA-256 of a file, computed once for all that is read from it; BadInput if it cannot be read."""
-    try:
-        return file_hash(path)
-    except OSError as problem:
-        raise BadInput(f"cannot be read: {problem.strerror}", str(path)) from None
-
-
-REMEMBERED = (_opened, source_hash, first_state)
-
-
-@contextmanager
-def remembered_files() -> Iterator[None]:
-    """What is remembered of files inside is forgotten before and afterwards."""
-    for remembered in REMEMBERED:
-        remembered.cache_clear()
-    try:
-        yield
-    finally:
-        for remembered in REMEMBERED:
-            remembered.cache_clear()
-
-
-def samples_hash(rate: float, *axes: Array) -> str:
-    """Hash by which two recordings with the same samples are known."""
-    digest = hashlib.sha256(repr(rate).encode())
-    for axis in axes:
-        digest.update(np.ascontiguousarray(axis).tobytes())
-    return digest.hexdigest()

@@ -15,7 +15,7 @@ from imports import Bring, Mat, noise, refusal
 from datagen.corpus_files.manifest import write_manifest
 from datagen.errors import BadInput
 from datagen.recordings import importing
-from datagen.recordings.source import source_hash
+from datagen.recordings.opened_files import source_hash
 
 GOOD = '[[recording]]\nname = "all"\nfiles = "*.mat"\nunit = "g"\nrate_hz = 1000\ny = "sig"\n'
 

@@ -636,7 +636,7 @@ def test_a_recording_that_vanishes_before_its_hash_is_taken_is_named(
         return file_hash(path)
 
     mat("a.mat")
-    monkeypatch.setattr("datagen.recordings.source.file_hash", vanished)
+    monkeypatch.setattr("datagen.recordings.opened_files.file_hash", vanished)
     with pytest.raises(BadInput) as problem:
         bring(SPEC)
     assert str(problem.value) == f"{tmp_path / 'a.mat'}: cannot be read: No such file or directory"

@@ -62,7 +62,7 @@ def draw() -> Figure:
     axes.axhline(1e-3, color=INK, linewidth=1.0, linestyle="--", label="accuracy asked for")
     axes.set(xlabel="estimated error", ylabel="error against fixed steps (relative RMS)", xlim=span)
     axes.set_title("Scenes of the wide corpus, drawn by a seed nothing was tuned with")
-    axes.legend(loc="lower center")
+    axes.legend(loc="lower right")
     return figure
 
 

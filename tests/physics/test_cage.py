@@ -170,6 +170,10 @@ def test_a_path_that_goes_on_keeps_what_it_was_and_the_speed_of_its_last_knot():
     speed = SPEED * (1.0 + path.knot_values[-1])
     np.testing.assert_allclose(longer.angle(beyond), path.angle(last) + speed * (beyond - last), rtol=1e-13)
     np.testing.assert_allclose(longer.crossing_times(longer.angle(beyond[:25])), beyond[:25], rtol=1e-12)
+    # By less than a step between knots, too: the last spline goes no farther than its knots.
+    short = dataclasses.replace(path, duration=last).going_on(0.9 * path.knot_step)
+    beyond = np.linspace(last, short.duration, 20)
+    np.testing.assert_allclose(short.angle(beyond), path.angle(last) + speed * (beyond - last), rtol=1e-13)
     even = CagePath(SPEED, 1.0, 0.4).going_on(0.5)
     assert even.duration == 1.5
     assert even.angle(np.array([1.5])) == pytest.approx(0.4 + 1.5 * SPEED)

@@ -199,6 +199,7 @@ def test_every_rig_has_support_bearing_and_resonator_modes_where_machines_have_t
         (name, stiffness, mass, damping, percent)
         for name in ("cwru", "mfpt", "ims")
         for stiffness, mass, damping, percent in (
+            ("support_stiffness_x", "outer_mass", "support_damping_x", 3.0),
             ("support_stiffness_y", "outer_mass", "support_damping_y", 3.0),
             ("resonator_stiffness", "resonator_mass", "resonator_damping", 2.0),
         )
@@ -209,6 +210,20 @@ def test_assumed_dampings_are_the_share_of_critical_that_their_note_says(entry, 
     critical = 2 * math.sqrt(getattr(machine, stiffness) * getattr(machine, mass))
     assert 100 * getattr(machine, damping) / critical == pytest.approx(percent, abs=0.05)  # rounded in the catalogue
     assert f"{percent:g} %" in getattr(RIGS[entry], damping).note
+
+
+@pytest.mark.parametrize("name", ["cwru", "mfpt", "ims"])
+def test_assumed_supports_are_as_stiff_both_ways_and_put_the_lowest_mode_where_their_note_says(name):
+    along, across = RIGS[name].support_stiffness_x, RIGS[name].support_stiffness_y
+    assert along == across
+    lowest = modes(rig(name), *rated_matrices(rig(name))).frequency_hz[0]
+    assert 250.0 <= lowest <= 650.0
+
+
+@pytest.mark.parametrize("name", ["koyo_1205", "nachi_2206gk", "rexnord_za2115"])
+def test_two_rows_are_staggered_by_half_the_spacing_that_their_note_says(name):
+    assert BEARINGS[name].row_offset.note.startswith("half the ")
+    assert bearing(name).stagger == pytest.approx(math.pi / bearing(name).balls, rel=EXACT)
 
 
 @pytest.mark.parametrize(

@@ -6,6 +6,7 @@ import math
 import numpy as np
 import pytest
 
+from physics.cage import CagePath
 from physics.checks import InvalidParameter
 from physics.operation import Operation
 from physics.outcome import Outcome, SimulationFailed
@@ -199,9 +200,10 @@ def test_the_outer_rings_motion_is_kept_on_request_at_the_raised_rate(reference_
     ],
 )
 def test_the_rate_is_raised_for_machine_and_sensor_path(reference_scene, rate, path, factor):
-    trace = simulate(reference_scene("G0", 0.01), rate, keep=Kept(outer=True, fastest_path=path))
-    assert trace.outer.rate == factor * rate
-    assert trace.outer.velocity.shape[0] == factor * (trace.acceleration.shape[0] + (24 if factor > 1 else 0))
+    for solution in (Accurate(), FixedSteps(1)):
+        trace = simulate(reference_scene("G0", 0.01), rate, solution, keep=Kept(outer=True, fastest_path=path))
+        assert trace.outer.rate == factor * rate
+        assert trace.outer.velocity.shape[0] == factor * (trace.acceleration.shape[0] + (24 if factor > 1 else 0))
 
 
 @pytest.mark.parametrize("keep", [Kept(), Kept(outer=True, fastest_path=800.0)], ids=["alone", "with a path"])
@@ -226,6 +228,17 @@ def test_a_record_at_a_low_rate_is_the_beginning_of_a_longer_one(reference_scene
     beginning = whole.acceleration[: found.acceleration.shape[0]]
     assert np.abs(found.acceleration - beginning).max() < 2e-3 * rms(beginning)
     assert found.changes.time.size == (whole.changes.time < 0.2).sum()
+
+
+def test_a_record_of_two_cages_at_a_low_rate_is_the_beginning_of_a_longer_one(reference_scene):
+    longer, rate = reference_scene("F1", 0.25, slip_seed=3), 12800.0
+    longer = dataclasses.replace(longer, second_cage=CagePath(0.97 * longer.cage.nominal_speed, 0.25, 0.1))
+    cages = {"cage": longer.cage, "second_cage": longer.second_cage}
+    shorter = {name: dataclasses.replace(cage, duration=0.2) for name, cage in cages.items()}
+    found, whole = (simulate(scene, rate) for scene in (dataclasses.replace(longer, **shorter), longer))
+    beginning = whole.acceleration[: found.acceleration.shape[0]]
+    assert found.acceleration.shape == (2560, 2)
+    assert np.abs(found.acceleration - beginning).max() < 0.01 * rms(beginning)  # each is off by 1e-3 (RMS)
 
 
 @pytest.mark.parametrize("what", ["force", "outer"])

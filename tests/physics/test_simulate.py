@@ -11,6 +11,7 @@ from physics.checks import InvalidParameter
 from physics.operation import Operation
 from physics.outcome import Outcome, SimulationFailed
 from physics.request import Accurate, FixedSteps, HalvedSteps, LeadIn, Reference
+from physics.response.oversampling import oversampling
 from physics.rms import rms
 from physics.simulate import simulate
 from physics.trace import Kept
@@ -204,6 +205,14 @@ def test_the_rate_is_raised_for_machine_and_sensor_path(reference_scene, rate, p
         trace = simulate(reference_scene("G0", 0.01), rate, solution, keep=Kept(outer=True, fastest_path=path))
         assert trace.outer.rate == factor * rate
         assert trace.outer.velocity.shape[0] == factor * (trace.acceleration.shape[0] + (24 if factor > 1 else 0))
+
+
+def test_a_rate_that_holds_hardly_anything_of_what_rings_is_refused(reference_scene):
+    scene = reference_scene("G0", 0.1)
+    assert oversampling(scene, 700.0) == 151  # ten samples of 10.55 kHz
+    with pytest.raises(SimulationFailed, match=r"600 Hz has to be raised 176 times .* at most 160 times") as caught:
+        simulate(scene, 600.0)
+    assert caught.value.outcome is Outcome.UNRESOLVED
 
 
 @pytest.mark.parametrize("keep", [Kept(), Kept(outer=True, fastest_path=800.0)], ids=["alone", "with a path"])

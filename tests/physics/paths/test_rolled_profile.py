@@ -102,6 +102,7 @@ def test_a_lip_beside_a_measured_spall_lifts_the_ball_before_it_gets_there(gearb
     assert np.max(np.abs(depth[[0, -1]])) < 1e-18
     assert np.max(np.abs(np.diff(depth))) < 0.1e-6  # no jump at the edges of the spall
     assert min(first, last) < -half
+    assert path.relief[-1] == pytest.approx(np.ptp(depth), rel=5e-3)  # a free ball may touch the lip within a step
 
 
 @pytest.mark.parametrize(("turns", "expected"), [(1, False), (3, False), (8, False), (9, True), (60, True)])

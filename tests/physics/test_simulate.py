@@ -141,6 +141,15 @@ def test_the_start_is_at_rest_in_static_equilibrium(name, reference_scene):
     assert np.sum(trace.contact_force[0] * np.sin(rows)) == pytest.approx(-scene.operation.load, rel=1e-3)
 
 
+@pytest.mark.parametrize("solution", [Accurate(), FixedSteps(1)])
+def test_with_a_contact_angle_the_radial_share_of_the_normal_forces_carries_the_load(solution, reference_scene):
+    scene = with_rig(with_bearing(reference_scene("G0", 0.001), contact_angle=0.4), film_damping=0.0)
+    trace = simulate(scene, RATE, solution, keep=Kept(force=True))
+    angle = 2.0 * np.pi * np.arange(12) / 12.0
+    rows = np.array([angle, angle + np.pi / 12.0])
+    assert np.sum(trace.contact_force[0] * np.sin(rows)) * math.cos(0.4) == pytest.approx(-346.0, rel=1e-6)
+
+
 def test_a_low_rate_is_simulated_at_a_higher_one_and_lowered_without_aliasing(reference_scene, reference_trace):
     high = reference_trace("G1", 0.5).acceleration[:, 1]
     low_rate = RATE / 8.0

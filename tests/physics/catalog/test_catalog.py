@@ -155,6 +155,22 @@ def test_numbers_that_contradict_their_source_are_noted_with_both_values(rows):
         assert "(agrees)" in notes["fan", f"{agreed} (printed)"]
 
 
+@pytest.mark.parametrize(
+    ("name", "quantity", "computed"),
+    [
+        ("gearbox", "balls within the 40 degree spall", 40.0 / (360.0 / 12.0)),
+        ("fan", "extent of a 1.2 mm spall", math.degrees(1.2 / ((45.0 + 8.0) / 2.0))),
+        # The outer raceway is a sphere, whose radius over the ball's diameter is the conformity.
+        ("gearbox", "load_deflection", load_deflection_factor(38.75e-3, 7.12e-3, outer_conformity=45.87 / 14.24)),
+        ("fan", "load_deflection", load_deflection_factor(45e-3, 8e-3, outer_conformity=53.0 / 16.0)),
+    ],
+)
+def test_beside_what_a_source_prints_stands_what_its_geometry_gives(rows, name, quantity, computed):
+    [note] = [row.note for row in rows if (row.name, row.quantity) == (name, f"{quantity} (printed)")]
+    told = float(note.split("numbers give ")[1].split()[0].rstrip(";"))
+    assert told == pytest.approx(computed, rel=1e-5)  # six digits
+
+
 @pytest.mark.parametrize(("name", "agrees"), [("cwru", True), ("ims", True), ("mfpt", False)])
 def test_both_printed_ball_pass_frequencies_stand_beside_what_the_geometry_gives(rows, name, agrees):
     notes = {row.quantity: row for row in rows if row.name == name}

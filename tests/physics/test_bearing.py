@@ -104,7 +104,8 @@ def test_the_sum_of_many_stribeck_loads_carries_the_load():
 
 def test_rows_are_staggered_by_half_a_ball_spacing_unless_told_otherwise():
     assert SIMPLE.stagger == pytest.approx(math.pi / 12, rel=1e-15)
-    assert dataclasses.replace(SIMPLE, row_offset=0.1).stagger == 0.1
+    for told in (0.1, 0.0):
+        assert dataclasses.replace(SIMPLE, row_offset=told).stagger == told
     assert SIMPLE.spacing == pytest.approx(2 * math.pi / 12, rel=1e-15)
 
 
@@ -120,6 +121,7 @@ def test_each_race_has_its_own_conformity():
     ("change", "message"),
     [
         ({"balls": 2}, "balls = 2; allowed: whole numbers 3 to 200"),
+        ({"balls": 201, "ball_diameter": 1e-4}, "balls = 201; allowed: whole numbers 3 to 200"),
         ({"balls": 9.5}, "balls = 9.5; allowed: whole numbers"),
         ({"balls": True}, "balls = True; allowed: whole numbers"),
         ({"rows": 3}, "rows = 3; allowed: whole numbers 1 to 2"),

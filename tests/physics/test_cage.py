@@ -161,6 +161,18 @@ def test_the_knots_reach_two_steps_beyond_both_ends():
     assert path.knot_times[-1] >= 1.0 + 2 * path.knot_step * (1 - 1e-9)
 
 
+def test_the_knots_of_a_slip_with_a_lead_in_reach_two_steps_beyond_its_start():
+    step, start, values = draw_slip_knots(np.random.default_rng(1), SLIP, 0.04, 1.0, lead_in=0.3)
+    assert (step, start) == pytest.approx((0.01, -0.32))
+    assert start + step * (len(values) - 1) >= 1.0 + 2.0 * step * (1.0 - 1e-9)
+
+
+def test_more_knots_of_a_slip_than_fit_into_memory_are_refused_before_they_are_drawn():
+    with pytest.raises(InvalidParameter, match=r"the slip needs 4e\+07 knots, .* allowed: up to 1e\+07") as caught:
+        draw_slip_knots(np.random.default_rng(1), SLIP, 1e-7, 1.0)
+    assert caught.value.field == "correlation_time"
+
+
 def test_a_path_that_goes_on_keeps_what_it_was_and_the_speed_of_its_last_knot():
     path = drawn_path(3, start_angle=0.4)
     longer, last = path.going_on(5 * BALL_PASS), path.knot_times[-1]
@@ -170,6 +182,10 @@ def test_a_path_that_goes_on_keeps_what_it_was_and_the_speed_of_its_last_knot():
     speed = SPEED * (1.0 + path.knot_values[-1])
     np.testing.assert_allclose(longer.angle(beyond), path.angle(last) + speed * (beyond - last), rtol=1e-13)
     np.testing.assert_allclose(longer.crossing_times(longer.angle(beyond[:25])), beyond[:25], rtol=1e-12)
+    # By less than a step between knots, too: the last spline goes no farther than its knots.
+    short = dataclasses.replace(path, duration=last).going_on(0.9 * path.knot_step)
+    beyond = np.linspace(last, short.duration, 20)
+    np.testing.assert_allclose(short.angle(beyond), path.angle(last) + speed * (beyond - last), rtol=1e-13)
     even = CagePath(SPEED, 1.0, 0.4).going_on(0.5)
     assert even.duration == 1.5
     assert even.angle(np.array([1.5])) == pytest.approx(0.4 + 1.5 * SPEED)

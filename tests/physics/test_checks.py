@@ -49,6 +49,12 @@ def test_zero_is_not_positive_but_not_negative_either():
         require_positive("depth", 0.0)
 
 
+@pytest.mark.parametrize("rate", [0.0, -1.0, math.nan, math.inf])
+def test_there_is_no_half_of_a_rate_that_is_none(rate):
+    with pytest.raises(InvalidParameter, match=f"rate = {rate} Hz; it must be above 0"):
+        require_below_nyquist("frequency", 50.0, rate)
+
+
 def test_half_the_rate_is_not_below_it():
     require_below_nyquist("frequency", 49.9, 100.0)
     with pytest.raises(InvalidParameter):

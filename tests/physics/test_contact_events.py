@@ -1,5 +1,7 @@
 """Release, regain, load and loss of contact of passes against logs of contact that are written out."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 
@@ -62,3 +64,11 @@ def test_a_pass_that_begins_before_the_record_takes_contact_as_it_stands_at_0():
 def test_passes_of_one_ball_do_not_share_their_events():
     log = [(1.5, False), (1.8, True), (4.5, False), (4.8, True)]
     assert events(True, log, (1.0, 2.0), (4.0, 5.0)) == [[1.5, 4.5], [1.8, 4.8], [True, True], [True, True]]
+
+
+def test_each_row_has_its_own_contact_at_the_start():
+    none = ContactChanges(np.zeros(0), np.zeros(0, np.int16), np.zeros(0, np.int16), np.zeros(0, bool), None)
+    both = dataclasses.replace(none, initial=np.array([[True, False], [False, True]]))
+    for row, loaded in ((1, [True, False]), (2, [False, True])):
+        found = contact_events(both, row, np.array([1, 2], np.int16), np.full(2, 4.0), np.full(2, 6.0))
+        assert found[2].tolist() == loaded

@@ -13,6 +13,7 @@ from physics.hertz import (
     PointContact,
     contact_parameters,
     contact_width,
+    hertz_load_deflection,
     in_series,
     is_roller,
     load_deflection_factor,
@@ -184,6 +185,27 @@ def test_the_contact_width_of_a_roller_is_that_of_two_cylinders(gearbox):
     assert contact_width(roller, "inner", load) == pytest.approx(2 * half, rel=1e-12)  # rounding
 
 
+def test_a_bearing_s_contact_angle_enters_its_factor_and_the_width_of_its_contacts(gearbox):
+    angle, load = 0.7, 63.0
+    bearing = dataclasses.replace(gearbox.bearing, contact_angle=angle, inner_conformity=0.51, outer_conformity=0.53)
+    # 2/D + cos α / R of the inner race and 2/D − cos α / R of the outer one, R = (Dp ∓ D cos α) / 2.
+    pitch, ball, cosine = bearing.pitch_diameter, bearing.ball_diameter, math.cos(angle)
+    contacts = [
+        PointContact(2.0 / ball + sign * 2.0 * cosine / (pitch - sign * ball * cosine), (2.0 - 1.0 / conformity) / ball)
+        for sign, conformity in ((1.0, 0.51), (-1.0, 0.53))
+    ]
+    deflection = sum(contact.approach(load) for contact in contacts)
+    assert hertz_load_deflection(bearing) * deflection**1.5 == pytest.approx(load, rel=1e-12)  # rounding
+    for race, contact in zip(("inner", "outer"), contacts, strict=True):
+        assert contact_width(bearing, race, load) == pytest.approx(2.0 * contact.semi_axes(load)[0], rel=1e-12)
+
+
+@pytest.mark.parametrize(("exponent", "roller"), [(1.0, True), (1.30, True), (1.31, False), (2.0, False)])
+def test_elements_are_of_the_kind_whose_exponent_is_nearer(gearbox, exponent, roller):
+    assert (abs(exponent - 10.0 / 9.0) < abs(exponent - 1.5)) is roller
+    assert is_roller(dataclasses.replace(gearbox.bearing, exponent=exponent)) is roller
+
+
 @pytest.mark.parametrize(
     ("call", "message"),
     [
@@ -195,6 +217,7 @@ def test_the_contact_width_of_a_roller_is_that_of_two_cylinders(gearbox):
         (lambda: load_deflection_factor(39e-3, 8e-3, 2.0), r"contact_angle = 2\.0 rad; allowed: 0 to 1\.0472 rad"),
         (lambda: contact_parameters(1.0), "curvature_difference = 1.0"),
         (lambda: PointContact(along=-1.0, across=1.0), "along = -1.0"),
+        (lambda: PointContact(along=1.0, across=1.0, modulus=0.0), r"modulus = 0\.0 Pa; it must be above 0"),
         (lambda: roller_length(0.0), "load_deflection = 0.0"),
         (lambda: roller_load_deflection_factor(-1e-3), "length = -0.001"),
     ],

@@ -8,6 +8,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from physics.checks import InvalidParameter
+from physics.imperfections import Imperfections
 from physics.ladder.contact_sets import changes_between_samples
 from physics.ladder.impulse_train import edges_of, impulse_response
 from physics.ladder.linear_time_varying import repeats_with_the_balls
@@ -114,6 +115,13 @@ def test_the_linear_model_of_a_healthy_bearing_holds_without_clearance_and_not_w
     # Measured 0.011 and 0.018 without clearance, 0.34 to 0.36 with 3 µm; `holds_where` says so.
     assert low <= rms(linear[later] - full[later]) / rms(full[later]) < high
     assert "without clearance" in SIMPLER_MODELS["linear time-varying"].holds_where
+
+
+def test_the_linear_model_of_unequal_balls_knows_which_of_them_carries(reference_scene):
+    balls = ((1e-7, *(0.0,) * 11), (0.0,) * 12)
+    scene = dataclasses.replace(reference_scene("G0", 0.1), imperfections=Imperfections(ball_deviation=balls))
+    linear, full = (simulate(scene, RATE, way).acceleration for way in (Simpler("linear time-varying"), Accurate()))
+    assert rms(linear - full) < 0.05 * rms(full)  # 2 %, as where balls are alike
 
 
 def test_the_linear_model_in_time_is_the_one_over_cage_angle(reference_scene):

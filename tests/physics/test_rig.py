@@ -51,7 +51,10 @@ def test_each_mass_stands_twice_on_the_diagonal(gearbox):
         ({"resonator_mass": float("nan")}, "resonator_mass = nan kg; it must be above 0"),
         ({"support_stiffness_y": -1.0}, "support_stiffness_y = -1.0 N/m; it must be above 0"),
         ({"resonator_stiffness": float("inf")}, "resonator_stiffness = inf N/m; it must be above 0"),
-        ({"film_damping": -1.0}, "film_damping = -1.0 N s/m; it must not be below 0"),
+        *(
+            ({f"{place}_damping{axis}": -1.0}, f"{place}_damping{axis} = -1.0 N s/m; it must not be below 0")
+            for place, axis in (("support", "_x"), ("support", "_y"), ("resonator", ""), ("film", ""))
+        ),
         ({"rated_speed": 0.0}, "rated_speed = 0.0 rad/s; it must be above 0"),
         ({"rated_load": 0.0}, "rated_load = 0.0 N; it must be above 0"),
     ],

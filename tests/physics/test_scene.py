@@ -145,6 +145,33 @@ def test_a_cage_that_overtakes_the_shaft_between_two_knots_of_its_slip_is_refuse
                 dataclasses.replace(healthy, cage=cage, spalls=(inner,))
 
 
+def test_a_cage_that_overtakes_the_shaft_before_and_after_its_slip_is_refused(healthy):
+    """Beyond the record, where passes begin and end, a cage goes on at its mean speed."""
+    inner, shaft = dataclasses.replace(SPALL, race="inner"), healthy.operation.shaft_speed
+    for mean, allowed in ((0.99, True), (1.01, False)):
+        cage = CagePath(mean * shaft, 0.5, knot_step=0.5, knot_values=(-0.1, -0.1))
+        assert cage.fastest == pytest.approx(0.9 * mean * shaft)
+        if allowed:
+            dataclasses.replace(healthy, cage=cage, spalls=(inner,))
+        else:
+            with pytest.raises(InvalidParameter, match=r"cage = 44\.4221 rad/s at its fastest"):
+                dataclasses.replace(healthy, cage=cage, spalls=(inner,))
+
+
+def test_a_cage_that_slips_and_reaches_the_speed_of_the_shaft_is_refused(healthy):
+    inner, shaft = dataclasses.replace(SPALL, race="inner"), healthy.operation.shaft_speed
+    slipping = CagePath(shaft, 0.5, knot_step=0.25, knot_values=(0.0, -0.1, -0.1))
+    assert slipping.fastest == shaft
+    with pytest.raises(InvalidParameter, match="or that speed without slip"):
+        dataclasses.replace(healthy, cage=slipping, spalls=(inner,))
+
+
+def test_a_race_of_another_name_has_no_speed(healthy):
+    assert (healthy.race_speed("outer"), healthy.race_speed("inner")) == (0.0, healthy.operation.shaft_speed)
+    with pytest.raises(InvalidParameter, match='race = "cage"; allowed: outer, inner'):
+        healthy.race_speed("cage")
+
+
 @pytest.mark.parametrize("sequence", [list, np.array])
 def test_lists_and_arrays_describe_the_same_scene_as_tuples(healthy, sequence):
     deviation = ((0.0, 1e-6, *(0.0,) * 10), (0.0,) * 12)
@@ -187,6 +214,12 @@ def test_a_surface_too_short_to_roll_a_ball_over_is_refused(healthy, shape):
         else:
             with pytest.raises(InvalidParameter, match=r"surface 9(\.01)?e-07 m long; allowed: from 1e-06 m"):
                 dataclasses.replace(healthy, spalls=(spall,))
+
+
+def test_a_short_table_within_a_long_spall_is_refused(healthy):
+    short = Spall("outer", 1, 4.0, 0.1, 0.0, profile="table", table_angle=(-1e-6, 1e-6), table_depth=(0.0, 0.0))
+    with pytest.raises(InvalidParameter, match=r"surface 4\.59e-08 m long; allowed: from 1e-06 m"):
+        dataclasses.replace(healthy, spalls=(short,))
 
 
 @pytest.mark.parametrize("race", ["outer", "inner"])

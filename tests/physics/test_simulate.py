@@ -6,10 +6,12 @@ import math
 import numpy as np
 import pytest
 
+from physics.cage import CagePath
 from physics.checks import InvalidParameter
 from physics.operation import Operation
 from physics.outcome import Outcome, SimulationFailed
 from physics.request import Accurate, FixedSteps, HalvedSteps, LeadIn, Reference
+from physics.response.oversampling import oversampling
 from physics.rms import rms
 from physics.simulate import simulate
 from physics.trace import Kept
@@ -139,6 +141,15 @@ def test_the_start_is_at_rest_in_static_equilibrium(name, reference_scene):
     assert np.sum(trace.contact_force[0] * np.sin(rows)) == pytest.approx(-scene.operation.load, rel=1e-3)
 
 
+@pytest.mark.parametrize("solution", [Accurate(), FixedSteps(1)])
+def test_with_a_contact_angle_the_radial_share_of_the_normal_forces_carries_the_load(solution, reference_scene):
+    scene = with_rig(with_bearing(reference_scene("G0", 0.001), contact_angle=0.4), film_damping=0.0)
+    trace = simulate(scene, RATE, solution, keep=Kept(force=True))
+    angle = 2.0 * np.pi * np.arange(12) / 12.0
+    rows = np.array([angle, angle + np.pi / 12.0])
+    assert np.sum(trace.contact_force[0] * np.sin(rows)) * math.cos(0.4) == pytest.approx(-346.0, rel=1e-6)
+
+
 def test_a_low_rate_is_simulated_at_a_higher_one_and_lowered_without_aliasing(reference_scene, reference_trace):
     high = reference_trace("G1", 0.5).acceleration[:, 1]
     low_rate = RATE / 8.0
@@ -199,9 +210,18 @@ def test_the_outer_rings_motion_is_kept_on_request_at_the_raised_rate(reference_
     ],
 )
 def test_the_rate_is_raised_for_machine_and_sensor_path(reference_scene, rate, path, factor):
-    trace = simulate(reference_scene("G0", 0.01), rate, keep=Kept(outer=True, fastest_path=path))
-    assert trace.outer.rate == factor * rate
-    assert trace.outer.velocity.shape[0] == factor * (trace.acceleration.shape[0] + (24 if factor > 1 else 0))
+    for solution in (Accurate(), FixedSteps(1)):
+        trace = simulate(reference_scene("G0", 0.01), rate, solution, keep=Kept(outer=True, fastest_path=path))
+        assert trace.outer.rate == factor * rate
+        assert trace.outer.velocity.shape[0] == factor * (trace.acceleration.shape[0] + (24 if factor > 1 else 0))
+
+
+def test_a_rate_that_holds_hardly_anything_of_what_rings_is_refused(reference_scene):
+    scene = reference_scene("G0", 0.1)
+    assert oversampling(scene, 700.0) == 151  # ten samples of 10.55 kHz
+    with pytest.raises(SimulationFailed, match=r"600 Hz has to be raised 176 times .* at most 160 times") as caught:
+        simulate(scene, 600.0)
+    assert caught.value.outcome is Outcome.UNRESOLVED
 
 
 @pytest.mark.parametrize("keep", [Kept(), Kept(outer=True, fastest_path=800.0)], ids=["alone", "with a path"])
@@ -226,6 +246,17 @@ def test_a_record_at_a_low_rate_is_the_beginning_of_a_longer_one(reference_scene
     beginning = whole.acceleration[: found.acceleration.shape[0]]
     assert np.abs(found.acceleration - beginning).max() < 2e-3 * rms(beginning)
     assert found.changes.time.size == (whole.changes.time < 0.2).sum()
+
+
+def test_a_record_of_two_cages_at_a_low_rate_is_the_beginning_of_a_longer_one(reference_scene):
+    longer, rate = reference_scene("F1", 0.25, slip_seed=3), 12800.0
+    longer = dataclasses.replace(longer, second_cage=CagePath(0.97 * longer.cage.nominal_speed, 0.25, 0.1))
+    cages = {"cage": longer.cage, "second_cage": longer.second_cage}
+    shorter = {name: dataclasses.replace(cage, duration=0.2) for name, cage in cages.items()}
+    found, whole = (simulate(scene, rate) for scene in (dataclasses.replace(longer, **shorter), longer))
+    beginning = whole.acceleration[: found.acceleration.shape[0]]
+    assert found.acceleration.shape == (2560, 2)
+    assert np.abs(found.acceleration - beginning).max() < 0.01 * rms(beginning)  # each is off by 1e-3 (RMS)
 
 
 @pytest.mark.parametrize("what", ["force", "outer"])

@@ -76,6 +76,7 @@ def test_an_impossible_spall_is_refused_by_field_and_value(change, field, messag
     ("change", "message"),
     [
         ({"table_angle": (-0.05, 0.05, 0.0)}, "table_angle must be finite and rise"),
+        ({"table_angle": (-0.05, 0.0, 0.0)}, "table_angle must be finite and rise"),
         ({"table_angle": (-0.05, 0.0, math.inf)}, "table_angle must be finite and rise"),
         ({"table_angle": (-0.06, 0.0, 0.05)}, "table_angle = -0.06 rad; allowed: -0.05 to 0.05 rad"),
         ({"table_depth": (0.0, 0.02, 0.0)}, "table_depth = 0.02 m; allowed: -0.01 to 0.01 m"),
@@ -85,6 +86,13 @@ def test_an_impossible_spall_is_refused_by_field_and_value(change, field, messag
 def test_a_measured_profile_must_be_a_rising_table_of_sane_depths(change, message):
     with pytest.raises(InvalidParameter, match=message):
         dataclasses.replace(TABLE, **change)
+
+
+def test_a_table_may_reach_beyond_its_spall_by_what_degrees_are_rounded_to():
+    within, beyond = (0.05 * (1.0 + share) for share in (5e-10, 2e-9))
+    assert dataclasses.replace(TABLE, table_angle=(-within, 0.0, within)).table_angle[-1] == within
+    with pytest.raises(InvalidParameter, match=r"table_angle = -0\.05.* rad; allowed: -0\.05 to 0\.05 rad"):
+        dataclasses.replace(TABLE, table_angle=(-beyond, 0.0, beyond))
 
 
 def test_tapers_may_fill_the_spall_exactly():

@@ -86,6 +86,10 @@ def test_a_cage_that_does_not_fit_the_shaft_is_told(gearbox, cage):
     assert [note.split(":")[0] for note in assess(faster)] == [message]
     slow = dataclasses.replace(scene, **{cage: CagePath(9.0, 0.5)})
     assert any("The cage turns at a nominal 9 rad/s" in note for note in assess(slow))
+    # Speeds of seven digits are those of pure rolling.
+    for off, noted in ((5e-7, 0), (-5e-7, 0), (5e-6, 1), (-5e-6, 1)):
+        nearly = CagePath(scene.cage.nominal_speed * (1.0 + off), 0.5)
+        assert len(assess(dataclasses.replace(scene, **{cage: nearly}))) == noted
     slipping = dataclasses.replace(scene, cage=dataclasses.replace(scene.cage, mean_slip=0.1))
     assert assess(slipping) == ()
 
@@ -130,6 +134,24 @@ def test_over_a_rough_floor_the_steepest_way_between_crest_and_trough_counts(fan
     by_hand = element_mass(fan.bearing) * 2 * 2 * amplitude / half_wave**2
     assert inertia_force(scene, rough) == pytest.approx(by_hand, rel=0.05)  # down the entry taper it is a little more
     assert inertia_force(scene, smooth) < 0.1 * by_hand
+
+
+def test_of_thousands_of_roughness_values_no_crest_is_missed(fan):
+    waves, amplitude = 370, 0.1e-6
+    values = amplitude * (1.0 - np.cos(np.linspace(0.0, 2.0 * math.pi * waves, 8 * waves + 1)))
+    values[[0, -1]] = 0.0
+    rough = Spall("outer", 1, DOWN, 0.2, 0.0, roughness=amplitude, roughness_values=tuple(values))
+    scene = scene_of(fan, (rough,))
+    half_wave = 0.2 / waves / 2.0 / scene.cage.nominal_speed
+    by_hand = element_mass(fan.bearing) * 2 * 2 * amplitude / half_wave**2
+    assert inertia_force(scene, rough) == pytest.approx(by_hand, rel=0.1)  # 32 samples of half a wave, give or take 1
+
+
+def test_a_ball_of_a_cage_of_its_own_runs_over_a_spall_as_fast_as_that(gearbox):
+    first, second = (dataclasses.replace(line(2.0), row=row) for row in (1, 2))
+    scene = dataclasses.replace(scene_of(gearbox), second_cage=CagePath(2.0 * 17.951, 0.5))
+    ratio = inertia_force(scene, second) / inertia_force(scene, first)
+    assert ratio == pytest.approx(4.0, rel=2e-4)  # digits
 
 
 def measured(extent, angle, depth):
@@ -196,6 +218,20 @@ def test_the_note_appears_where_the_force_passes_a_fifth_of_the_peak_load(fan):
     assert len(assess(scene_of(fan, (spall,), speed=1.001 * limit))) == 1
 
 
+def test_the_note_on_the_centrifugal_force_appears_where_it_passes_a_fifth_of_the_peak_load(fan):
+    rated = element_mass(fan.bearing) * 22.5e-3 * fan.bearing.cage_speed(fan.rated_speed) ** 2
+    limit = math.sqrt(0.2 * peak_by_search(fan, 100.0) / rated) * fan.rated_speed
+    assert assess(scene_of(fan, speed=0.999 * limit)) == ()
+    [note] = assess(scene_of(fan, speed=1.001 * limit))
+    assert note.startswith("The centrifugal force of a ball")
+
+
+def test_the_peak_load_of_a_load_that_swings_is_that_of_its_largest(fan):
+    swinging = dataclasses.replace(scene_of(fan).operation, load_fluctuation=1.0, fluctuation_phase=2.0)
+    peak = peak_ball_load(dataclasses.replace(scene_of(fan), operation=swinging))
+    assert peak == pytest.approx(peak_by_search(fan, 200.0), rel=3e-3)  # 256 instants, none of them at the very peak
+
+
 def test_the_worst_of_several_spalls_is_named(fan):
     mild = dataclasses.replace(line(2.6), depth=1e-6)
     harsh = dataclasses.replace(line(2.6, exit=0.1), angle=math.radians(90))
@@ -208,6 +244,9 @@ def test_an_edge_without_taper_is_out_of_range(gearbox):
     # 100 N s/m of the gearbox rig times 12 µm
     assert film.startswith("An edge without taper is a step that the film does not feel")
     assert "an impulse of 0.0012 N s (damping times depth)" in film
+    shallow, one_edge = dataclasses.replace(line(2.0, 0.0, 0.0), depth=3e-6), line(2.0, 0.0, 0.3)
+    for spalls in ((one_edge,), (line(2.0, 0.3, 0.0),), (dataclasses.replace(shallow, angle=1.0), one_edge)):
+        assert any("an impulse of 0.0012 N s" in note for note in assess(scene_of(gearbox, spalls)))
     dry = dataclasses.replace(gearbox, film_damping=0.0)
     assert not [note for note in assess(scene_of(dry, (line(2.0, 0.0, 0.3),))) if "film" in note]
     gap = dataclasses.replace(line(2.0, 0.0, 0.0), depth=3e-4, profile="ball_path")

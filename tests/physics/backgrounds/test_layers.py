@@ -79,7 +79,7 @@ def test_pink_noise_has_its_slope_its_rms_and_nothing_below_its_lowest_frequency
 
 def test_the_density_of_pink_noise_integrates_to_its_power_and_does_not_know_the_records_length():
     frequency = np.linspace(16.0, RATE / 2.0, 2_000_001)
-    for slope in (0.0, 0.7, 1.0, 2.0):
+    for slope in (0.0, 0.7, 1.0, 1.0 + 1e-6, 1.05, 2.0):
         density = pink_density(PinkNoise(2.5, 16.0, slope), frequency, RATE)
         assert np.trapezoid(density, frequency) == pytest.approx(6.25, rel=1e-6)  # trapezoids of 2 mHz
 
@@ -107,15 +107,18 @@ def test_the_gearbox_rigs_mesh_stands_at_224_hz_with_sidebands_of_both_shafts():
     assert sorted(np.flatnonzero(amplitude > 1e-9)) == sorted(places)
 
 
-def test_the_mesh_is_the_product_of_its_modulation_and_its_harmonics():
-    layer, speed = GearMesh(5, (2.0,), 3, 0.5, 0.25, 1), 90.0
+@pytest.mark.parametrize(("teeth", "other_teeth"), [(5, 3), (2, 1)], ids=["usual", "sidebands below 0 Hz"])
+def test_the_mesh_is_the_product_of_its_modulation_and_its_harmonics(teeth, other_teeth):
+    layer, speed = GearMesh(teeth, (2.0,), other_teeth, 0.5, 0.25, 3), 90.0
     generator = np.random.default_rng(6)
     signal = gear_mesh(generator, layer, speed, 200, RATE)
     phases = np.random.default_rng(6)
-    carrier, own, other = (2.0 * np.pi * phases.random((1, 2)) for _ in range(3))
-    turn = speed * np.arange(200)[:, None] / RATE
-    modulation = 1.0 + 0.5 * np.cos(turn + own) + 0.25 * np.cos(5.0 / 3.0 * turn + other)
-    assert signal == pytest.approx(2.0 * modulation * np.cos(5.0 * turn + carrier), abs=1e-12)  # rounding
+    carrier, own, other = (2.0 * np.pi * phases.random((rows, 2)) for rows in (1, 3, 3))
+    turn, modulation = speed * np.arange(200)[:, None] / RATE, 1.0
+    for k in range(3):
+        modulation = modulation + 0.5 ** (k + 1) * np.cos((k + 1) * turn + own[k])
+        modulation += 0.25 ** (k + 1) * np.cos((k + 1) * teeth / other_teeth * turn + other[k])
+    assert signal == pytest.approx(2.0 * modulation * np.cos(teeth * turn + carrier), abs=1e-12)  # rounding
 
 
 def test_hum_stands_at_multiples_of_the_mains():
@@ -228,15 +231,24 @@ def test_pink_noise_that_begins_beyond_half_the_rate_is_refused():
         (lambda: PinkNoise(1.0, 0.0), r"pink lowest frequency = 0\.0 Hz; it must be above 0"),
         (lambda: PinkNoise(1.0, 1.0, 4.0), r"pink slope = 4\.0; allowed: 0 to 3"),
         (lambda: ShaftHarmonics((-1.0,)), r"shaft harmonic amplitude = -1\.0 m/s²"),
+        (lambda: ShaftHarmonics((1.0,), 1001), "first order = 1001; allowed: whole numbers 1 to 1000"),
         (lambda: ShaftHarmonics((1.0,), 0), "first order = 0; allowed: whole numbers 1 to 1000"),
         (lambda: GearMesh(0, (1.0,)), "teeth = 0; allowed: whole numbers 1 to 1000"),
         (lambda: GearMesh(9, (1.0,), modulation=1.2), r"modulation = 1\.2; allowed: 0 to 1"),
+        (lambda: GearMesh(1001, (1.0,)), "teeth = 1001; allowed: whole numbers 1 to 1000"),
+        (lambda: GearMesh(9, (1.0,), 1001), "other teeth = 1001; allowed: whole numbers 0 to 1000"),
+        (lambda: GearMesh(9, (1.0,), other_modulation=1.2), r"other modulation = 1\.2; allowed: 0 to 1"),
+        (lambda: GearMesh(9, (1.0,), sidebands=51), "sidebands = 51; allowed: whole numbers 0 to 50"),
         (lambda: GearMesh(9, (-1.0,)), r"mesh amplitude = -1\.0 m/s²"),
         (lambda: MainsHum(0.0, ()), r"mains frequency = 0\.0 Hz; it must be above 0"),
         (lambda: MainsHum(50.0, (-1.0,)), r"hum amplitude = -1\.0 m/s²"),
         (lambda: Impulses(-1.0, 1.0, 0.5, (Resonance(5.0, 0.1),)), r"impulses per second = -1\.0; allowed: 0 to 10000"),
+        (lambda: Impulses(10001.0, 1.0, 0.5, (Resonance(5.0, 0.1),)), r"impulses per second = 10001\.0; allowed: 0 to"),
+        (lambda: Impulses(1.0, 1.0, 5.1, (Resonance(5.0, 0.1),)), r"impulse spread = 5\.1; allowed: 0 to 5"),
         (lambda: Impulses(1.0, -1.0, 0.5, (Resonance(5.0, 0.1),)), r"impulse amplitude = -1\.0 m/s²"),
         (lambda: Impulses(1.0, 1.0, 0.5, ()), "impulses have no resonance to ring"),
+        (lambda: Resonance(0.0, 0.1), r"impulse resonance = 0\.0 Hz; it must be above 0"),
+        (lambda: Resonance(5.0, 0.71), r"impulse damping = 0\.71; allowed: 0 to 0\.7"),
         (lambda: Resonance(5.0, 0.0), r"impulse damping = 0\.0; it must be above 0"),
     ],
 )

@@ -155,6 +155,22 @@ def test_numbers_that_contradict_their_source_are_noted_with_both_values(rows):
         assert "(agrees)" in notes["fan", f"{agreed} (printed)"]
 
 
+@pytest.mark.parametrize(
+    ("name", "quantity", "computed"),
+    [
+        ("gearbox", "balls within the 40 degree spall", 40.0 / (360.0 / 12.0)),
+        ("fan", "extent of a 1.2 mm spall", math.degrees(1.2 / ((45.0 + 8.0) / 2.0))),
+        # The outer raceway is a sphere, whose radius over the ball's diameter is the conformity.
+        ("gearbox", "load_deflection", load_deflection_factor(38.75e-3, 7.12e-3, outer_conformity=45.87 / 14.24)),
+        ("fan", "load_deflection", load_deflection_factor(45e-3, 8e-3, outer_conformity=53.0 / 16.0)),
+    ],
+)
+def test_beside_what_a_source_prints_stands_what_its_geometry_gives(rows, name, quantity, computed):
+    [note] = [row.note for row in rows if (row.name, row.quantity) == (name, f"{quantity} (printed)")]
+    told = float(note.split("numbers give ")[1].split()[0].rstrip(";"))
+    assert told == pytest.approx(computed, rel=1e-5)  # six digits
+
+
 @pytest.mark.parametrize(("name", "agrees"), [("cwru", True), ("ims", True), ("mfpt", False)])
 def test_both_printed_ball_pass_frequencies_stand_beside_what_the_geometry_gives(rows, name, agrees):
     notes = {row.quantity: row for row in rows if row.name == name}
@@ -199,6 +215,7 @@ def test_every_rig_has_support_bearing_and_resonator_modes_where_machines_have_t
         (name, stiffness, mass, damping, percent)
         for name in ("cwru", "mfpt", "ims")
         for stiffness, mass, damping, percent in (
+            ("support_stiffness_x", "outer_mass", "support_damping_x", 3.0),
             ("support_stiffness_y", "outer_mass", "support_damping_y", 3.0),
             ("resonator_stiffness", "resonator_mass", "resonator_damping", 2.0),
         )
@@ -209,6 +226,20 @@ def test_assumed_dampings_are_the_share_of_critical_that_their_note_says(entry, 
     critical = 2 * math.sqrt(getattr(machine, stiffness) * getattr(machine, mass))
     assert 100 * getattr(machine, damping) / critical == pytest.approx(percent, abs=0.05)  # rounded in the catalogue
     assert f"{percent:g} %" in getattr(RIGS[entry], damping).note
+
+
+@pytest.mark.parametrize("name", ["cwru", "mfpt", "ims"])
+def test_assumed_supports_are_as_stiff_both_ways_and_put_the_lowest_mode_where_their_note_says(name):
+    along, across = RIGS[name].support_stiffness_x, RIGS[name].support_stiffness_y
+    assert along == across
+    lowest = modes(rig(name), *rated_matrices(rig(name))).frequency_hz[0]
+    assert 250.0 <= lowest <= 650.0
+
+
+@pytest.mark.parametrize("name", ["koyo_1205", "nachi_2206gk", "rexnord_za2115"])
+def test_two_rows_are_staggered_by_half_the_spacing_that_their_note_says(name):
+    assert BEARINGS[name].row_offset.note.startswith("half the ")
+    assert bearing(name).stagger == pytest.approx(math.pi / bearing(name).balls, rel=EXACT)
 
 
 @pytest.mark.parametrize(

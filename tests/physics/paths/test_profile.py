@@ -261,6 +261,20 @@ def test_all_around_the_race_every_row_has_the_path_that_single_angles_have(gear
         assert np.allclose(around[row - 1], race_depth(scene, row, angle), rtol=0, atol=1e-17)
 
 
+@RACES
+@pytest.mark.parametrize("side", [-1.0, 1.0])
+def test_all_around_the_race_a_table_at_one_end_of_its_spall_is_whole(gearbox, build_scene, race, side):
+    angle, depth = np.array([0.05, 0.08, 0.12, 0.15]), np.array([0.0, 8e-6, 8e-6, 0.0])
+    if side < 0.0:
+        angle = -angle[::-1]
+    measured = Spall(race, 1, 1.0, 0.31, 0.0, profile="table", table_angle=tuple(angle), table_depth=tuple(depth))
+    scene = build_scene(gearbox, measured)
+    around = race_depths(scene, 2000)
+    single = race_depth(scene, 1, np.linspace(-math.pi, math.pi, 2001)[:-1])
+    assert np.count_nonzero(single > 7e-6) > 10
+    assert np.allclose(around[0], single, rtol=0, atol=1e-17)
+
+
 def test_a_wave_that_the_points_around_the_race_cannot_show_is_refused(gearbox, build_scene):
     scene = build_scene(gearbox, tukey(), imperfections=Imperfections(waviness=(Waviness("outer", 4, 1e-6),)))
     assert race_depths(scene, 9).shape == (2, 9)

@@ -102,6 +102,7 @@ def test_a_lip_beside_a_measured_spall_lifts_the_ball_before_it_gets_there(gearb
     assert np.max(np.abs(depth[[0, -1]])) < 1e-18
     assert np.max(np.abs(np.diff(depth))) < 0.1e-6  # no jump at the edges of the spall
     assert min(first, last) < -half
+    assert path.relief[-1] == pytest.approx(np.ptp(depth), rel=5e-3)  # a free ball may touch the lip within a step
 
 
 @pytest.mark.parametrize(("turns", "expected"), [(1, False), (3, False), (8, False), (9, True), (60, True)])
@@ -111,6 +112,29 @@ def test_a_table_is_rough_if_it_goes_up_and_down_all_along(gearbox, turns, expec
     fine = np.linspace(-0.15, 0.15, 400)  # many points alone make no roughness
     spall = table("outer", fine, np.interp(fine, angle, depth).tolist(), 0.3)
     assert is_rough(spall, gearbox.bearing) is expected
+
+
+def test_flat_stretches_of_a_table_are_no_turns(gearbox):
+    levels = np.repeat(np.where(np.arange(9) % 2 == 1, 6e-6, 1e-6), 2)  # eight moves, so seven turns
+    assert not is_rough(table("outer", np.linspace(-0.15, 0.15, levels.size), levels.tolist(), 0.3), gearbox.bearing)
+
+
+@RACES
+@pytest.mark.parametrize(("share", "bridged"), [(0.99, False), (1.1, True)])
+def test_a_ball_bridges_a_rolled_floor_that_it_misses_by_a_tenth_of_the_depth(gearbox, race, share, bridged):
+    sag = hanging(race, gearbox.bearing.raceway_radius(race), gearbox.bearing.ball_radius, EXTENT / 2)
+    assert build_path(gap(race, depth=share * sag, roughness_values=(0.0,) * 8), gearbox.bearing).bridged is bridged
+
+
+@RACES
+@pytest.mark.parametrize(("shelf", "bridged"), [(4e-6, False), (2e-6, True)])
+def test_a_shelf_deeper_than_half_of_a_table_is_floor_of_it(gearbox, race, shelf, bridged):
+    angle = np.array([0.0004, 0.0005, 0.1, 0.15])  # a pit 18 µm wide in a shelf of 4 mm
+    depth = np.array([6e-6, shelf, shelf, 0.0])
+    pit = table(race, np.concatenate([-angle[::-1], angle]), np.concatenate([depth[::-1], depth]).tolist(), 0.3)
+    path = build_path(pit, gearbox.bearing)
+    assert path.largest_depth == pytest.approx(shelf, abs=0.1e-6)
+    assert path.bridged is bridged
 
 
 def rough(race="outer", profile="tukey", seed=1, deviation=1e-6, count=41):

@@ -1,5 +1,6 @@
 """What fixed steps say of their error where a spall is passed within one of them."""
 
+import dataclasses
 import math
 
 import pytest
@@ -7,7 +8,7 @@ from variants import changed
 
 from physics.outcome import Outcome, SimulationFailed
 from physics.request import Accurate, FixedSteps, HalvedSteps
-from physics.response.fixed_steps import MOST_HELD_AGAINST, steps_over_spalls
+from physics.response.fixed_steps import MOST_HELD_AGAINST, default_substeps, steps_over_spalls
 from physics.rms import relative_error
 from physics.simulate import simulate
 
@@ -54,6 +55,30 @@ def test_two_steps_are_asked_for_over_the_shortest_piece_of_a_spall(reference_sc
     assert steps_over_spalls(walls, RATE) == math.ceil(2.0 * speed / (math.radians(0.1) * RATE))
     sharp = changed(scene, spall={"entry_taper": 1e-9})
     assert steps_over_spalls(sharp, RATE) == math.ceil(2.0 * speed / (1e-9 * RATE)) > MOST_HELD_AGAINST
+
+
+def test_a_floor_that_two_tapers_leave_nothing_of_is_no_piece(reference_scene):
+    scene = changed(reference_scene("F1", 0.02), spall={"extent": 0.8, "entry_taper": 0.5, "exit_taper": 0.3})
+    spall = scene.spalls[0]
+    assert 0.0 < spall.extent - spall.entry_taper - spall.exit_taper < 1e-15
+    assert steps_over_spalls(scene, RATE) == 1
+
+
+@pytest.mark.parametrize(("rate", "steps"), [(65536.0, 1), (20000.0, 4), (10000.0, 7), (5000.0, 14)])
+def test_about_six_steps_a_period_of_the_fastest_mode_are_the_least(rate, steps, reference_scene):
+    # 6.2 steps of each of 10.548 kHz
+    assert default_substeps(reference_scene("G0", 0.02), rate) == steps
+
+
+def test_unless_told_otherwise_steps_are_as_many_as_are_stable(reference_scene):
+    scene = reference_scene("G1", 0.005)
+    scene = dataclasses.replace(scene, rig=dataclasses.replace(scene.rig, film_damping=3e4))
+    with pytest.raises(SimulationFailed, match="step") as failure:
+        simulate(scene, RATE, FixedSteps(default_substeps(scene, RATE)))
+    assert failure.value.outcome is Outcome.UNSTABLE_STEP
+    exact, stable = simulate(scene, RATE, Accurate(1e-6)).acceleration, simulate(scene, RATE, FixedSteps())
+    assert stable.step < 1.0 / RATE
+    assert relative_error(stable.acceleration, exact) < 1e-2
 
 
 def test_a_method_that_misses_the_impulse_of_a_nearly_rectangular_edge_is_refused(reference_scene):

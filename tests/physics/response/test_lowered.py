@@ -1,6 +1,6 @@
 """Responses whose rate is lowered, after which less may be left of the signal than of its error."""
 
-from types import SimpleNamespace
+from dataclasses import dataclass
 
 import numpy as np
 import pytest
@@ -40,8 +40,35 @@ def test_the_share_of_a_push_below_a_frequency_is_that_of_its_spectrum(frequency
     assert share_below(flow, 0.5, frequency) == pytest.approx(max(shares), rel=0.05)  # it is sampled, and aliases
 
 
+@dataclass
+class Lowered:
+    """What of a trace counts here."""
+
+    acceleration: np.ndarray
+    error_estimate: float
+    chaotic: bool
+
+
 def trace(size, error, chaotic=False):
-    return SimpleNamespace(acceleration=np.full((4, 2), size), error_estimate=error, chaotic=chaotic)
+    return Lowered(acceleration=np.full((4, 2), size), error_estimate=error, chaotic=chaotic)
+
+
+def test_the_share_that_is_left_of_an_error_is_held_against_what_is_left_of_the_signal():
+    asked = []
+
+    def respond(accuracy):
+        asked.append(accuracy)
+        return trace(0.05, accuracy), 1.0
+
+    found = respond_lowered(respond, 0.2, 1e-3, 0.0)
+    # 0.2 · 1e-3 of 1 m/s² is 4e-3 of the 0.05 m/s² that are left: four times what is allowed.
+    assert asked == pytest.approx([1e-3, 0.9 * 1e-3 / 4.0])
+    assert found.error_estimate == pytest.approx(0.2 * asked[-1] / 0.05)
+
+
+def test_no_response_is_said_to_be_more_exact_behind_the_low_pass_than_before_it():
+    found = respond_lowered(lambda accuracy: (trace(0.5, accuracy), 1.0), 0.01, 1e-3, 0.0)
+    assert found.error_estimate == 1e-3  # 0.01 · 1e-3 / 0.5 is less
 
 
 def test_what_is_left_of_a_chaotic_response_is_not_made_again():

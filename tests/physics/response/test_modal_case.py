@@ -1,12 +1,14 @@
 """A march that can be gone on with, and the one case that several share."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from physics.cage import CagePath
-from physics.response.goal import steady
+from physics.imperfections import Imperfections, Waviness
+from physics.response.goal import rms_distance, steady
 from physics.response.modal_case import March, case_of, resting
 from physics.statics.stiffness import stiffness_trace
 
@@ -51,3 +53,28 @@ def test_a_march_is_the_same_while_another_of_its_case_runs(done, reference_scen
         march.go_on(steady(march.case, samples, 1e-3, SIZE))
     np.testing.assert_array_equal(disturbed.output.acceleration, alone.output.acceleration)
     np.testing.assert_array_equal(disturbed.output.change_time, alone.output.change_time)
+
+
+@pytest.mark.parametrize("name", ["G0", "F0"])
+def test_two_marches_of_which_one_was_pushed_are_as_far_apart_as_such_errors_are_said_to_add_up_to(
+    name, reference_scene
+):
+    scene, push = reference_scene(name, 0.05), 1e-5  # N s, between the rings
+    case, samples = case_of(scene, resting(scene), RATE), round(0.05 * RATE)
+    grid = steady(case, samples, 1e-7, SIZE)
+    alone, pushed = March(case, samples).go_on(grid), March(case, samples, push=push).go_on(grid)
+    pushed.budget[0] = push**2
+    # A push half-way between x and y; what is said is of the direction that rings more.
+    assert rms_distance(alone, pushed) == pytest.approx(case.pushed(pushed), rel=0.04)
+
+
+@pytest.mark.parametrize("race", ["outer", "inner"])
+def test_no_step_takes_a_ball_over_more_than_half_of_the_shortest_wave(race, reference_scene):
+    scene = reference_scene("G0", 0.02)
+    waves = (Waviness(race, 7, 1e-7), Waviness(race, 40, 1e-8))
+    scene = replace(scene, second_cage=CagePath(0.9 * scene.cage.nominal_speed, 0.02))
+    wavy = replace(scene, imperfections=Imperfections(waves))
+    turning = scene.operation.shaft_speed if race == "inner" else 0.0
+    speed = max(abs(cage.nominal_speed - turning) for cage in scene.cages)
+    assert case_of(wavy, resting(wavy), RATE).longest == pytest.approx(math.pi / (40 * speed), rel=1e-12)
+    assert case_of(scene, resting(scene), RATE).longest == math.inf

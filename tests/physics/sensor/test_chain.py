@@ -51,6 +51,13 @@ def test_a_rate_too_low_for_a_mode_or_the_mounting_is_refused(chain, message):
         chain.check_rate(14000.0)
 
 
+def test_a_mode_that_the_outer_ring_s_rate_holds_and_that_of_the_trace_does_not_is_refused(trace):
+    """It would be gone behind the low-pass to the lower rate, as if the sensor had none."""
+    lower = dataclasses.replace(trace, rate=14000.0, outer=dataclasses.replace(trace.outer, rate=42000.0))
+    with pytest.raises(InvalidParameter, match=r"sensor resonance = 7100\.0 Hz; allowed: from 0 to below 7000 Hz"):
+        sensed(SensorChain(MODES), lower)
+
+
 def test_modes_do_not_push_back(trace, reference_scene):
     alone = simulate(reference_scene("F1", 0.05), 65536.0)
     assert np.array_equal(alone.acceleration, trace.acceleration)

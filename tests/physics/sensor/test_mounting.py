@@ -50,6 +50,7 @@ def test_the_mounting_is_causal_and_delays_low_frequencies_by_51_microseconds():
     [
         (lambda: Mounting(0.0), r"mounting cutoff = 0\.0 Hz; it must be above 0"),
         (lambda: Mounting(100.0, 0), "mounting order = 0; allowed: whole numbers 1 to 12"),
+        (lambda: Mounting(100.0, 13), "mounting order = 13; allowed: whole numbers 1 to 12"),
         (
             lambda: mounted(Mounting(500.0), np.zeros((4, 2)), 1000.0),
             r"mounting cutoff = 500\.0 Hz; allowed: from 0 to below 500 Hz",

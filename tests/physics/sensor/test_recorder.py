@@ -31,7 +31,11 @@ def test_halves_go_to_the_even_code():
 
 @pytest.mark.parametrize(
     ("fields", "message"),
-    [((0.0, 16), r"recorder range = 0\.0 m/s²; it must be above 0"), ((1.0, 1), "recorder bits = 1; allowed: whole")],
+    [
+        ((0.0, 16), r"recorder range = 0\.0 m/s²; it must be above 0"),
+        ((1.0, 1), "recorder bits = 1; allowed: whole numbers 2 to 32"),
+        ((1.0, 33), "recorder bits = 33; allowed: whole numbers 2 to 32"),
+    ],
 )
 def test_an_impossible_recorder_is_refused_with_its_number(fields, message):
     with pytest.raises(InvalidParameter, match=message):

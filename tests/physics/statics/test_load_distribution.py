@@ -248,8 +248,11 @@ def test_the_first_instant_is_told_at_which_a_growing_load_is_not_carried(gearbo
     time = np.arange(5000) / 65536.0  # half a turn, in which the load grows from 0 to 20 kN
     lost = np.flatnonzero(equilibrium(scene, time).status == NO_EQUILIBRIUM)
     assert time[lost[0]] == pytest.approx(0.0267, abs=1e-4)  # where the shaft would have moved by 50 mm
-    with pytest.raises(SimulationFailed, match=r"^at t = 0\.026[67]\d* s no position"):
-        QUASI_STATIC[name](scene, time)
+    for instants in (time, time[: lost[0] + 1]):
+        with pytest.raises(SimulationFailed, match=r"^at t = 0\.026[67]\d* s no position"):
+            QUASI_STATIC[name](scene, instants)
+    # Within a few instants of it the way there is given up as too far by those that set out from farther away.
+    QUASI_STATIC[name](scene, time[: lost[0] - 20])
 
 
 def test_every_status_names_one_outcome():

@@ -209,6 +209,31 @@ def test_one_shard_holds_one_rate_and_length(bring: Bring, mat: Mat) -> None:
     assert corpus.labels["duration_s"].tolist() == [0.3, 0.4, 0.3]
 
 
+def test_records_of_which_more_is_known_keep_it_beside_those_of_which_less_is(bring: Bring, mat: Mat) -> None:
+    for name in "abc":
+        mat(f"{name}.mat")
+    known = '[[recording.override]]\nfiles = "b.mat"\nbearing = "skf_6205"\nlocation = "outer"\nspalls = 2\n'
+    labels = bring(
+        f'[[recording]]\nname = "all"\nfiles = "*.mat"\nunit = "g"\nrate_hz = 1000\ny = "sig"\n{known}'
+    ).labels
+    for name, number in (("balls", 9), ("rows", 1), ("spalls", 2)):
+        assert labels[name].isna().tolist() == [True, False, True]
+        assert labels.loc[1, name] == number
+
+
+def test_another_table_of_labels_makes_another_corpus(bring: Bring, mat: Mat, tmp_path: Path) -> None:
+    mat("a.mat")
+    found = []
+    for load in (100, 200):
+        (tmp_path / "t.csv").write_text(f"file,load_n\na.mat,{load}\n")
+        found.append(
+            bring('[[recording]]\nname = "all"\ntable = "t.csv"\nunit = "g"\nrate_hz = 1000\ny = "sig"\n', str(load))
+        )
+        assert found[-1].manifest.recipe["tables"] == {"t.csv": file_hash(tmp_path / "t.csv")}
+    one, other = (corpus.manifest.identity.recipe_hash for corpus in found)
+    assert one != other
+
+
 def test_overrides_go_before_tables_and_tables_before_the_rest(bring: Bring, mat: Mat, tmp_path: Path) -> None:
     for name in ("r1.mat", "sub/r2.mat", "sub/r3.mat"):
         mat(name)

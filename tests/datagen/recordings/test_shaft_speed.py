@@ -123,6 +123,11 @@ def test_a_speed_of_0_is_told_of_the_pieces_that_have_it(tmp_path: Path, mat: Ma
     assert corpus.labels["speed_rpm"].tolist() == pytest.approx([300.0, 1500.0])
 
 
+def test_a_speed_of_0_is_told_of_the_part_that_is_taken(tmp_path: Path, mat: Mat) -> None:
+    _, told = standing(tmp_path, mat, "from_s = 0.5\n")
+    assert told == ("a (13 of 88 places)",)
+
+
 TACH = (
     '[[recording]]\nname = "all"\nfiles = "*.mat"\nunit = "g"\nrate_hz = 1000\ny = "sig"\ntach = {variable = "tacho"}\n'
 )

@@ -14,6 +14,7 @@ from imports import Bring, Mat, noise, refusal
 
 from datagen.corpus_files.manifest import write_manifest
 from datagen.errors import BadInput
+from datagen.inspection.check import check_corpus
 from datagen.recordings import importing
 from datagen.recordings.opened_files import source_hash
 
@@ -181,7 +182,9 @@ def test_records_of_unknown_bearings_may_be_in_several_splits(bring: Bring, mat:
     mat("a.mat")
     mat("b.mat")
     (tmp_path / "t.csv").write_text("file,split\na.mat,train\nb.mat,test\n")
-    assert bring(GOOD + 'table = "t.csv"\n').labels["split"].tolist() == ["train", "test"]
+    corpus = bring(GOOD + 'table = "t.csv"\n')
+    assert corpus.labels["split"].tolist() == ["train", "test"]
+    assert check_corpus(corpus.folder).sound
 
 
 @pytest.mark.parametrize(

@@ -86,6 +86,20 @@ def test_the_machine_of_ones_own_on_the_datasets_page_has_what_must_be_given_and
             draw(**{name: value for name, value in machine.items() if name != key})
 
 
+@pytest.mark.parametrize("what", ["support_stiffness_{}_n_per_m", "support_damping_{}_n_s_per_m"])
+@pytest.mark.parametrize("axis", "xy")
+def test_a_drawn_rig_needs_the_number_of_the_other_axis_too(what: str, axis: str) -> None:
+    shared = "support_frequency_hz" if "stiffness" in what else "support_damping_ratio"
+    others = {name: value for name, value in RIG.items() if name != shared}
+    both = {what.format("x"): 1e7, what.format("y"): 1e7}
+    assert draw(**BEARING, **others, **both)
+    one = what.format("y" if axis == "x" else "x")
+    with pytest.raises(BadInput, match=f"one of {what.format(axis)}, {shared}"):
+        draw(**BEARING, **others, **{one: 1e7})
+    with pytest.raises(BadInput, match="set the same thing twice"):
+        draw(**BEARING, **RIG, **{one: 1e7})
+
+
 def test_k_of_a_drawn_bearing_is_hertzs() -> None:
     for rig in rigs(5, **BEARING, **RIG):
         b = rig.bearing

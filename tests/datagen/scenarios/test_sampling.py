@@ -136,6 +136,13 @@ def test_each_further_spall_has_a_stream_and_a_roughness_of_its_own() -> None:
         assert spall.roughness_values == expected
 
 
+def test_a_ball_spacing_in_degrees_may_be_rounded_down_in_its_last_figure() -> None:
+    spacing = 32.7272727272727  # of 11 balls: 360 / 11, which is more
+    assert spacing < 360 / 11
+    (scenario,) = draw(machine={"rig": "gearbox", "balls": 11}, defect=EXTENDED | {"extent_deg": spacing})
+    assert scenario.condition == "extended"
+
+
 def test_of_several_spalls_the_largest_makes_a_record_extended() -> None:
     defect = {"condition": "extended", "count": 2, "separation_deg": 90, "extent_spacing": {"uniform": [0.5, 1.5]}}
     scenarios = draw(20, defect=defect | {"depth_um": 6})

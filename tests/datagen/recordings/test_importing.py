@@ -462,6 +462,8 @@ def told_of(settings: str, tmp_path: Path) -> str:
         (58.0, -80.0, ""),  # 98.8 g together
         (0.5, 5.5, "1 with a mean above 10 times the vibration around it, as of gravity or a sensor's bias: "
                    "a (y 5.5 g beside 0.5 g RMS)\n"),
+        (0.5, -5.5, "1 with a mean above 10 times the vibration around it, as of gravity or a sensor's bias: "
+                   "a (y -5.5 g beside 0.5 g RMS)\n"),
         (0.5, -4.5, ""),
     ],
 )  # fmt: skip

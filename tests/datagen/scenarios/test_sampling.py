@@ -460,6 +460,8 @@ def test_a_resonance_that_is_not_recorded_needs_a_band_of_ones_own() -> None:
     with pytest.raises(BadInput, match="rings at 10548 Hz, too high for a sampling rate of 16384 Hz; allowed: rate_hz"):
         draw_scenario(recipe_of(altered, signal=slow), 0)
     assert draw_scenario(recipe_of(HEALTHY, signal=slow | {"envelope_band_hz": [500, 4000]}), 0).rate == 16384
+    with pytest.raises(BadInput, match="rings at 10548 Hz"):  # whose band, 5 % to either side, is recorded in part
+        draw_scenario(recipe_of(altered, signal={"rate_hz": 21000, "duration_s": 0.1}), 0)
 
 
 def test_the_duration_is_rounded_to_whole_samples() -> None:

@@ -118,7 +118,7 @@ def _stated_speeds(source: Source, rate: float, size: int, pieces: list[tuple[in
     for start, stop in pieces:
         rpm, basis = _stated_speed(source, span_of(start, stop, size))
         angle = None
-        if turned is not None and basis == "measured":
+        if turned is not None:
             angle = _unless_steady(np.interp(np.arange(start, stop) / rate, *turned))
         yield ShaftSpeed(rpm, basis, angle)
 

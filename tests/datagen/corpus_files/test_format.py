@@ -41,6 +41,16 @@ def test_a_shard_opens_with_plain_xarray_to_the_arrays_that_were_put_in(
         assert opened.attrs["title"] == "t"
 
 
+def test_each_record_has_its_own_rows_in_the_tables_of_passes_and_defects(make_plain_record: Maker) -> None:
+    records = [make_plain_record(4), make_plain_record(9, healthy=True), make_plain_record(7)]
+    dataset = to_dataset(records, {})
+    for record in records:
+        passes, spalls = (dataset[f"{table}_record"].values == record.index for table in ("pass", "defect"))
+        for name in ("entry_time", "deepest_time", "exit_time", "release_time"):
+            assert np.array_equal(dataset[name].values[passes], getattr(record.passes, name), equal_nan=True)
+        assert dataset["defect_angle"].values[spalls].tolist() == [spall.angle for spall in record.spalls]
+
+
 def test_time_opens_as_floats_of_seconds_that_start_at_zero(dataset: xarray.Dataset, tmp_path: Path) -> None:
     with xarray.open_dataset(stored(dataset, tmp_path / "a.nc")) as opened:
         for name in ("time", "stiffness_time", "entry_time", "regain_time", "duration_s"):

@@ -178,7 +178,10 @@ def test_an_open_file_keeps_no_chunks_and_other_files_as_many_as_ever(tiny_corpu
     assert netCDF4.get_chunk_cache() == usual
 
 
-def test_a_shard_that_was_made_again_is_opened_again(tiny_corpus: Path, tmp_path: Path) -> None:
+@pytest.mark.parametrize("put", [Path.replace, shutil.copyfile], ids=["in its place", "into it"])
+def test_a_shard_that_was_made_again_is_opened_again(
+    put: Callable[[Path, Path], object], tiny_corpus: Path, tmp_path: Path
+) -> None:
     folder = tmp_path / "corpus"
     shutil.copytree(tiny_corpus, folder)
     shard = min((folder / "shards").glob("*.nc"))
@@ -189,9 +192,10 @@ def test_a_shard_that_was_made_again_is_opened_again(tiny_corpus: Path, tmp_path
             new.createDimension("time", 3)
             new.createVariable("acceleration", "f4", ("record", "time"))[...] = 7.0
             new.createVariable("record", "i8", ("record",))[...] = old["record"][...]
-        (tmp_path / "new.nc").replace(shard)
+        put(tmp_path / "new.nc", shard)
         assert before.shape != (3,)
         assert np.array_equal(corpus.waveform(0), [7.0, 7.0, 7.0])
+        assert corpus.open_files == [shard.resolve()]
 
 
 def test_a_corpus_closes_its_files_at_the_end_of_its_block_whatever_happens_there(tiny_corpus: Path) -> None:

@@ -5,9 +5,11 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
+import xarray
 
-from datagen.corpus_files.format import Identity, to_dataset
+from datagen.corpus_files.format import Identity, content_hash, to_dataset
 from datagen.corpus_files.shard import (
     Failure,
     Sidecar,
@@ -109,3 +111,15 @@ def test_the_same_records_give_the_same_content_hash_and_different_ones_another(
         for records in ([first, second], [replace(first), replace(second)], [second, first], [first])
     }
     assert len(hashes) == 3
+
+
+def test_the_content_hash_is_of_names_dimensions_and_shapes_too() -> None:
+    numbers = np.arange(6.0)
+    datasets = [
+        xarray.Dataset({"a": ("time", numbers)}),
+        xarray.Dataset({"b": ("time", numbers)}),
+        xarray.Dataset({"a": ("ball", numbers)}),
+        xarray.Dataset({"a": (("time", "axis"), numbers.reshape(2, 3))}),
+        xarray.Dataset({"a": (("time", "axis"), numbers.reshape(3, 2))}),
+    ]
+    assert len(set(map(content_hash, datasets))) == len(datasets)

@@ -50,9 +50,24 @@ def test_frequencies_follow_from_orders_and_speed_and_are_left_out_where_unknown
 
 def test_the_lines_shown_are_those_of_the_stated_place_or_of_both_races() -> None:
     assert portrait().expected_lines == ("BPFO",)
+    assert portrait(location="inner").expected_lines == ("BPFI",)
     assert portrait(location="ball").expected_lines == ("BSF",)
     assert portrait(location="none").expected_lines == ("BPFO", "BPFI")
     assert portrait(bpfo=math.nan).expected_lines == ()
+
+
+def test_y_is_drawn_where_it_was_recorded_and_else_the_only_axis() -> None:
+    along_y = portrait().main_axis
+    of_both = replace(portrait(("x", "y")), acceleration=np.stack([np.zeros(along_y.size), along_y], axis=1))
+    assert np.array_equal(of_both.main_axis, along_y)
+    assert np.array_equal(portrait(("x",)).main_axis, along_y)
+
+
+def test_frequencies_at_a_changing_speed_are_those_of_the_turns_that_the_shaft_made() -> None:
+    time = np.arange(8000) / RATE
+    speeding = replace(portrait(), shaft_angle=2.0 * math.pi * (20.0 * time + 10.0 * time**2))  # 30 turns in a second
+    assert speeding.frequencies["shaft"] == pytest.approx(30.0, rel=1e-3)
+    assert speeding.frequencies["BPFO"] == pytest.approx(108.0, rel=1e-3)
 
 
 def test_the_close_up_is_three_revolutions_about_the_largest_amplitude() -> None:

@@ -149,6 +149,33 @@ def test_a_label_that_differs_from_the_index_is_found(copy: Path) -> None:
     assert only_problem(copy) == "shards/shard_000001.nc: index.csv disagrees about its records"
 
 
+def test_a_label_that_differs_from_the_sidecar_is_found(copy: Path) -> None:
+    def relabel(dataset: xarray.Dataset) -> xarray.Dataset:
+        dataset["load_n"][0] = 1.0
+        return dataset
+
+    before = json.loads(sidecar_path(copy, 1).read_text())["labels"]
+    forge(copy, 1, relabel)
+    sidecar = json.loads(sidecar_path(copy, 1).read_text())
+    sidecar_path(copy, 1).write_text(json.dumps(sidecar | {"labels": before}))
+    assert only_problem(copy) == "shards/shard_000001.nc: its labels are not those of its sidecar"
+
+
+def test_arrays_that_are_not_those_of_the_sidecar_are_found_though_the_bytes_are(copy: Path) -> None:
+    content = json.loads(sidecar_path(copy, 1).read_text())["content"]
+    for path in (sidecar_path(copy, 1), copy / "manifest.json"):
+        path.write_text(path.read_text().replace(content, "0" * 64))
+    assert only_problem(copy) == "shards/shard_000001.nc: its arrays are not those originally written"
+
+
+def test_a_shard_that_other_physics_made_is_found(copy: Path) -> None:
+    sidecar = json.loads(sidecar_path(copy, 1).read_text())
+    sidecar["identity"]["model_hash"] = "0" * 16
+    sidecar_path(copy, 1).write_text(json.dumps(sidecar))
+    problem = "shards/shard_000001.nc: made from another recipe, physics or format than the manifest states"
+    assert only_problem(copy) == problem
+
+
 def test_a_scenario_that_the_recipe_does_not_give_is_found(copy: Path) -> None:
     def rewrite(dataset: xarray.Dataset) -> xarray.Dataset:
         texts = dataset["scenario"].values.astype(object)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import pickle
 from pathlib import Path
@@ -78,6 +79,23 @@ def test_the_hash_is_of_what_a_recipe_says_not_of_how_it_is_written(tmp_path: Pa
     assert rewritten.hash == plain
     assert load_recipe(write(tmp_path, ("seed = 1", "seed = 2"))).hash != plain
     assert load_recipe(write(tmp_path, ("depth_um = 12", "depth_um = 13"))).hash != plain
+
+
+def test_a_band_narrower_than_lines_lie_apart_is_taken_only_where_all_records_have_the_same_lines(
+    tmp_path: Path,
+) -> None:
+    band = ("duration_s = 0.5", "duration_s = 0.5\nenvelope_band_hz = [19999.5, 20000.5]")  # lines are at even numbers
+    assert load_recipe(write(tmp_path, band)).signal.envelope_band_hz == (19999.5, 20000.5)
+    drawn = ("rate_hz = 65536", "rate_hz = {choice = [65536.0, 65540.0]}")
+    assert "which lie 2 Hz apart; allowed: a band at least 2 wide" in str(refusal(tmp_path, drawn, band))
+
+
+def test_the_hash_is_of_the_whole_recipe_as_data_with_its_defaults(tmp_path: Path) -> None:
+    recipe = load_recipe(write(tmp_path))
+    content = recipe.model_dump(mode="json")
+    assert content["signal"]["settle_s"] == 0.0  # nobody stated it
+    text = json.dumps(content, sort_keys=True, separators=(",", ":"))
+    assert recipe.hash == hashlib.sha256(text.encode()).hexdigest()
 
 
 def test_the_hash_covers_the_numbers_of_a_measured_table(tmp_path: Path) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+from contextlib import nullcontext
 from pathlib import Path
 
 import numpy as np
@@ -173,6 +174,22 @@ def test_a_recording_is_found_where_its_recipe_was_read_wherever_its_user_goes(
     assert recording.load().shape == (SAMPLES, 1)
 
 
+def test_of_drawn_rates_a_frequency_must_lie_below_half_the_lowest(folder: Path) -> None:
+    text = BASE.replace("rate_hz = 32768", "rate_hz = {choice = [30000.0, 65536.0]}")
+    for cutoff, refused in ((14_000, False), (16_000, True)):
+        (folder / "recipe.toml").write_text(f"{text}chain = {{mounting_cutoff_hz = {cutoff}}}\n")
+        said = r"mounting_cutoff_hz = 16000\.0: .* half the sampling rate of 30000 Hz; allowed: below 15000"
+        with pytest.raises(BadInput, match=said) if refused else nullcontext():
+            load_recipe(folder / "recipe.toml")
+
+
+def test_two_tables_are_no_two_channels(folder: Path) -> None:
+    np.savez(folder / "tables.npz", a=np.ones((9000, 2)), b=np.zeros((9000, 2)))
+    text = RECORDING.format(file="tables.npz") + 'rate_hz = 32768\nchannels = ["a", "b"]'
+    with pytest.raises(BadInput, match="the two channels are not equally long"):
+        load(folder, text)
+
+
 def test_records_of_drawn_rates_take_no_recording(folder: Path) -> None:
     drawn = BASE.replace("rate_hz = 32768", "rate_hz = {choice = [32768.0, 65536.0]}")
     (folder / "recipe.toml").write_text(drawn + RECORDING.format(file="good.npy") + "rate_hz = 32768")
@@ -248,10 +265,11 @@ def test_a_part_without_a_table_of_its_own_takes_the_recipes(tmp_path: Path) -> 
     (tmp_path / "recipe.toml").write_text(
         BASE.replace("[[part]]", "[chain]\nresonator_gain = 2\n[background]\nwhite_rms_m_s2 = 3\n[[part]]")
         + 'chain = {resonator_gain = 4}\n[[part]]\nname = "b"\nrecords = 1\nmachine.rig = "fan"\n'
+        + "background = {white_rms_m_s2 = 5}\n"
     )
     recipe = load_recipe(tmp_path / "recipe.toml")
     assert [recipe.chain_of(part).resonator_gain for part in recipe.part] == [Fixed(4.0), Fixed(2.0)]
-    assert [recipe.background_of(part).white_rms_m_s2 for part in recipe.part] == [Fixed(3.0), Fixed(3.0)]
+    assert [recipe.background_of(part).white_rms_m_s2 for part in recipe.part] == [Fixed(3.0), Fixed(5.0)]
 
 
 def test_the_example_on_the_datasets_page_is_a_recipe(folder: Path) -> None:

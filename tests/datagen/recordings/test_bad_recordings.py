@@ -14,6 +14,7 @@ from imports import Bring, Mat, noise, refusal
 
 from datagen.corpus_files.manifest import write_manifest
 from datagen.errors import BadInput
+from datagen.inspection.check import check_corpus
 from datagen.recordings import importing
 from datagen.recordings.opened_files import source_hash
 
@@ -64,6 +65,10 @@ def test_a_setting_that_is_wrong_or_missing_is_named(
         ('speed_rpm = {variable = "rpm"}', 'a.mat: speed_rpm = "rpm": the file has no such variable'),
         ('scale = {variable = "sig"}\nscall = 3', 'unknown key; did you mean "scale"?'),
         ("scale = 0", "a.mat: scale = 0.0; allowed: any number but 0"),
+        (
+            "to_s = 0.5",
+            "to_s = 0.5; allowed: at least 0.016 s between from_s and to_s, both within 0.4 s, the length of a.mat",
+        ),
         ("cut_s = 5", "cut_s = 5.0; allowed: 0.016 to 0.4 s, the length of a.mat"),
         ("envelope_band_hz = [100, 600]", "envelope_band_hz = [100.0, 600.0]; allowed: 0 <= low < high <= 500"),
         (
@@ -133,6 +138,25 @@ def test_the_same_samples_twice_are_refused_or_left_out(bring: Bring, mat: Mat, 
     assert bring('same_samples = "skip"\n' + GOOD).labels["recording"].tolist() == ["a"]
 
 
+def test_the_same_samples_twice_are_a_repeat_though_another_axis_is_dead(
+    bring: Bring, mat: Mat, tmp_path: Path
+) -> None:
+    column = mat("a.mat", dead=np.zeros(400))
+    mat("b.mat", column, dead=np.zeros(400))
+    found = refusal(bring, GOOD.replace("a.mat", "*.mat") + 'x = "dead"\n', tmp_path)
+    assert 'record "b" has exactly the samples of "a"' in found
+
+
+def test_a_piece_that_repeats_another_is_left_out_and_those_behind_it_keep_their_samples(
+    bring: Bring, mat: Mat
+) -> None:
+    one, other = noise(100, seed=1), noise(100, seed=2)
+    mat("a.mat", np.concatenate([one, one, other]))
+    corpus = bring('same_samples = "skip"\n' + GOOD.replace('"g"', '"m/s2"') + "cut_s = 0.1\n")
+    assert corpus.labels["recording"].tolist() == ["a#0", "a#2"]
+    assert np.array_equal(corpus.to_numpy()[:, :, 0], np.stack([one, other]).astype(np.float32))
+
+
 def test_the_same_samples_at_another_rate_are_no_repeat(bring: Bring, mat: Mat) -> None:
     mat("a.mat", noise(seed=1), fs=1000.0)
     mat("b.mat", noise(seed=1), fs=2000.0)
@@ -158,7 +182,9 @@ def test_records_of_unknown_bearings_may_be_in_several_splits(bring: Bring, mat:
     mat("a.mat")
     mat("b.mat")
     (tmp_path / "t.csv").write_text("file,split\na.mat,train\nb.mat,test\n")
-    assert bring(GOOD + 'table = "t.csv"\n').labels["split"].tolist() == ["train", "test"]
+    corpus = bring(GOOD + 'table = "t.csv"\n')
+    assert corpus.labels["split"].tolist() == ["train", "test"]
+    assert check_corpus(corpus.folder).sound
 
 
 @pytest.mark.parametrize(

@@ -161,6 +161,13 @@ def test_what_is_not_said_is_unknown_and_absent(bring: Bring, mat: Mat, tmp_path
     assert check_corpus(tmp_path / "corpus").sound
 
 
+def test_load_and_signal_to_noise_ratio_are_stored_as_they_are_said(bring: Bring, mat: Mat) -> None:
+    mat("a.mat")
+    spec = '[[recording]]\nname = "all"\nfiles = "a.mat"\nunit = "g"\nrate_hz = 1000\ny = "sig"\n'
+    labels = bring(spec + "load_n = 250\nsnr_db = -4\n").labels
+    assert labels[["load_n", "snr_db"]].to_numpy().tolist() == [[250.0, -4.0]]
+
+
 def test_a_speed_comes_from_a_variable_a_tach_or_a_nominal_value(bring: Bring, mat: Mat) -> None:
     time = np.arange(5000) / 5000.0
     mat("a.mat", noise(5000), rps=24.5, tacho=(np.sin(2.0 * np.pi * 60.0 * time - 0.3) > 0.0).astype(float))
@@ -207,6 +214,42 @@ def test_one_shard_holds_one_rate_and_length(bring: Bring, mat: Mat) -> None:
     corpus = bring('[[recording]]\nname = "all"\nfiles = "*.mat"\nunit = "g"\nrate_hz = 1000\ny = "sig"\n')
     assert corpus.labels.groupby("shard")["duration_s"].nunique().tolist() == [1, 1]
     assert corpus.labels["duration_s"].tolist() == [0.3, 0.4, 0.3]
+
+
+def test_records_of_which_more_is_known_keep_it_beside_those_of_which_less_is(bring: Bring, mat: Mat) -> None:
+    for name in "abc":
+        mat(f"{name}.mat")
+    known = '[[recording.override]]\nfiles = "b.mat"\nbearing = "skf_6205"\nlocation = "outer"\nspalls = 2\n'
+    labels = bring(
+        f'[[recording]]\nname = "all"\nfiles = "*.mat"\nunit = "g"\nrate_hz = 1000\ny = "sig"\n{known}'
+    ).labels
+    for name, number in (("balls", 9), ("rows", 1), ("spalls", 2)):
+        assert labels[name].isna().tolist() == [True, False, True]
+        assert labels.loc[1, name] == number
+
+
+def test_a_defect_as_long_as_the_ball_spacing_is_extended(bring: Bring, mat: Mat, tmp_path: Path) -> None:
+    arcs = {"a": 39.9, "b": 40, "c": 40.1}  # nine balls are 40 degrees apart
+    for name in arcs:
+        mat(f"{name}.mat")
+    rows = "".join(f"{name}.mat,{arc}\n" for name, arc in arcs.items())
+    (tmp_path / "t.csv").write_text(f"file,extent_deg\n{rows}")
+    known = 'unit = "g"\nrate_hz = 1000\ny = "sig"\nbearing = "skf_6205"\nlocation = "outer"\n'
+    labels = bring(f'[[recording]]\nname = "all"\ntable = "t.csv"\n{known}').labels
+    assert labels["condition"].tolist() == ["line", "extended", "extended"]
+
+
+def test_another_table_of_labels_makes_another_corpus(bring: Bring, mat: Mat, tmp_path: Path) -> None:
+    mat("a.mat")
+    found = []
+    for load in (100, 200):
+        (tmp_path / "t.csv").write_text(f"file,load_n\na.mat,{load}\n")
+        found.append(
+            bring('[[recording]]\nname = "all"\ntable = "t.csv"\nunit = "g"\nrate_hz = 1000\ny = "sig"\n', str(load))
+        )
+        assert found[-1].manifest.recipe["tables"] == {"t.csv": file_hash(tmp_path / "t.csv")}
+    one, other = (corpus.manifest.identity.recipe_hash for corpus in found)
+    assert one != other
 
 
 def test_overrides_go_before_tables_and_tables_before_the_rest(bring: Bring, mat: Mat, tmp_path: Path) -> None:
@@ -419,6 +462,8 @@ def told_of(settings: str, tmp_path: Path) -> str:
         (58.0, -80.0, ""),  # 98.8 g together
         (0.5, 5.5, "1 with a mean above 10 times the vibration around it, as of gravity or a sensor's bias: "
                    "a (y 5.5 g beside 0.5 g RMS)\n"),
+        (0.5, -5.5, "1 with a mean above 10 times the vibration around it, as of gravity or a sensor's bias: "
+                   "a (y -5.5 g beside 0.5 g RMS)\n"),
         (0.5, -4.5, ""),
     ],
 )  # fmt: skip

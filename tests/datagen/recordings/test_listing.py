@@ -162,6 +162,14 @@ def test_two_stars_stand_for_any_folders_or_none_in_an_override_too(pattern: str
     assert sorted(labels[labels["load_n"] == 7.0]["recording"]) == ["b1", "b2", "b3"]
 
 
+def test_a_name_of_a_table_that_several_folders_hold_is_refused(bring: Bring, mat: Mat, tmp_path: Path) -> None:
+    for name in ("one/r.mat", "two/r.mat"):
+        mat(name)
+    (tmp_path / "t.csv").write_text("file\nr.mat\n")
+    with pytest.raises(BadInput, match=r"2 files below .* match: one/r\.mat, two/r\.mat"):
+        bring(SPEC + 'table = "t.csv"\n')
+
+
 def test_a_table_alone_leaves_nothing_out(bring: Bring, mat: Mat, tmp_path: Path) -> None:
     mat("a.mat")
     (tmp_path / "t.csv").write_text("file\na.mat\n")

@@ -70,6 +70,17 @@ def test_elements_of_arrays_of_structures_and_of_cell_arrays_are_counted_from_0(
         assert np.array_equal(choose(arrays, wish, path, "y"), VIBRATION)
 
 
+def test_elements_of_a_table_of_them_are_counted_column_by_column(tmp_path: Path) -> None:
+    structures, cells = np.empty((2, 3), dtype=[("Data", object)]), np.empty((2, 3), dtype=object)
+    for row, column in np.ndindex(2, 3):
+        structures[row, column] = cells[row, column] = np.array([[10.0 * row + column]])
+    scipy.io.savemat(tmp_path / "a.mat", {"S": structures, "C": cells})
+    arrays = read(tmp_path / "a.mat")
+    for names in ("S[{}].Data", "C[{}]"):
+        found = [arrays[names.format(place)].item() for place in range(6)]
+        assert found == [0.0, 10.0, 1.0, 11.0, 2.0, 12.0]
+
+
 def test_an_empty_array_of_version_7_3_is_empty(tmp_path: Path) -> None:
     new_file(tmp_path / "run_1.mat")
     assert read(tmp_path / "run_1.mat")["empty"].size == 0

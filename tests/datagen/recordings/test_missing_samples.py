@@ -25,6 +25,14 @@ def test_short_gaps_are_filled_if_that_is_asked_for(bring: Bring, mat: Mat, gaps
     assert json.loads(corpus.waveform(0, "provenance"))["mended_samples"] == len(gaps)
 
 
+def test_what_is_filled_is_counted_over_all_axes(bring: Bring, mat: Mat) -> None:
+    x, y = np.random.default_rng(2).standard_normal((2, 2000))
+    x[7] = y[[20, 300]] = np.nan
+    mat("a.mat", y, other=x)
+    corpus = bring(GAPS + 'x = "other"\nmissing_samples = "fill"\n')
+    assert json.loads(corpus.waveform(0, "provenance"))["mended_samples"] == 3
+
+
 @pytest.mark.parametrize("gaps", [range(100, 111), range(0, 2000, 60)])
 def test_long_and_many_gaps_are_refused(bring: Bring, mat: Mat, gaps: range) -> None:
     signal = np.random.default_rng(1).standard_normal(2000)

@@ -66,6 +66,10 @@ def test_figures_alone_are_no_ending(bring: Bring, tmp_path: Path) -> None:
     assert corpus.labels["recording"].tolist() == ["2003.10.22.12.06.24", "2003.10.22.12.06.54"]
 
 
+def test_the_number_of_a_file_is_the_first_in_its_name() -> None:
+    assert filled("{number:03}", Path("run7/b12_load3.mat"), "y") == "012"
+
+
 @pytest.mark.parametrize("text", ["{stem.real_name}", "{stem[a]}", "{what}", "{1}", "{", "{stem:d}"])
 def test_braces_that_mean_nothing_are_refused_with_those_that_do(text: str) -> None:
     with pytest.raises(BadInput) as problem:

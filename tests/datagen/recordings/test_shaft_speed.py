@@ -38,6 +38,16 @@ def test_a_piece_has_the_mean_of_its_own_part_of_a_speed_channel(bring: Bring, m
     assert cut.tolist() == pytest.approx([600.0, 900.0, 1200.0], rel=0.02)
 
 
+def test_a_place_of_a_speed_channel_that_two_pieces_share_counts_in_both(bring: Bring, mat: Mat) -> None:
+    mat("a.mat", turns=np.array([10.0, 11.0, 12.0]))
+    corpus = bring(
+        '[[recording]]\nname = "all"\nfiles = "a.mat"\nunit = "g"\nrate_hz = 1000\ny = "sig"\n'
+        'cut_s = 0.1\nspeed_rpm = {variable = "turns", factor = 60}\nload_n = {variable = "turns", factor = 1e3}\n'
+    )
+    assert corpus.labels["speed_rpm"].tolist() == pytest.approx([600.0, 630.0, 690.0, 720.0])
+    assert corpus.labels["load_n"].tolist() == pytest.approx([11e3] * 4)
+
+
 @pytest.mark.parametrize(
     ("wish", "told"),
     [
@@ -121,6 +131,11 @@ def test_a_speed_of_0_is_told_of_the_pieces_that_have_it(tmp_path: Path, mat: Ma
     corpus, told = standing(tmp_path, mat, "cut_s = 2\n")
     assert told == ("a#0 (25 of 50 places)",)
     assert corpus.labels["speed_rpm"].tolist() == pytest.approx([300.0, 1500.0])
+
+
+def test_a_speed_of_0_is_told_of_the_part_that_is_taken(tmp_path: Path, mat: Mat) -> None:
+    _, told = standing(tmp_path, mat, "from_s = 0.5\n")
+    assert told == ("a (13 of 88 places)",)
 
 
 TACH = (
@@ -209,6 +224,14 @@ def test_the_angle_of_a_shaft_is_told_by_its_pulses_and_goes_on_beyond_them(puls
     # Beyond the pulses the speed of the nearest turn goes on, which by then is a few per cent off.
     assert np.abs(off).max() < 0.15
     assert (np.diff(off + course(instants)) > 0.0).all()
+
+
+def test_beyond_its_pulses_a_shaft_goes_on_at_the_mean_speed_of_a_turn_of_unequal_teeth() -> None:
+    teeth = np.array([0.0, 0.2, 0.5, 0.7])
+    times = (np.arange(5)[:, None] + teeth).ravel()  # one turn a second
+    before, behind = shaft_angle(times, 4.0, np.array([-0.5, 4.7 + 0.5])) / (2.0 * np.pi)
+    assert before == pytest.approx(-0.5)
+    assert behind == pytest.approx(4.75 + 0.5)
 
 
 def test_a_shaft_is_steady_if_it_strays_by_less_than_a_tenth_of_a_turn() -> None:

@@ -37,6 +37,7 @@ def test_upper_settings_replace_lower_ones_and_their_alternatives_and_notes_are_
     }  # fmt: skip
     assert "y" not in merged(lower, {"channel": ()})
     assert merged(lower, {"channel_name": "DE"})["y"] == "a"
+    assert merged(lower | {"channel_name": "DE"}, {"channel": ()}).keys() == {"speed_rpm", "unit", "notes", "channel"}
 
 
 def test_given_settings_come_in_the_order_in_which_they_are_declared_however_they_are_written() -> None:

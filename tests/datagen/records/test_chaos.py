@@ -34,6 +34,7 @@ def test_two_step_sizes_of_another_method_end_far_apart(scenario):
 def test_the_record_is_called_chaotic_and_its_points_unknown(scenario):
     record = make_record(scenario)
     assert "chaotic" in record.labels["validity"]
+    assert "accuracy" not in record.labels["validity"]
     assert record.labels["validity"].startswith(label_values(scenario.scene)["validity"])
     assert record.labels["error_estimate"] == 1.0
 

@@ -19,6 +19,7 @@ from datagen.runs.workers import Engine
 from datagen.scenarios.background import Background, NoiseTarget
 from datagen.scenarios.sampling import draw_scenario
 from datagen.scenarios.scenario_text import scenario_of
+from labels.envelope import band_envelope
 from labels.noise import signal_to_noise
 from labels.schema import LAYERS
 
@@ -62,7 +63,7 @@ name = "recorded"
 records = 2
 machine.rig = "fan"
 chain = {recorder_range_m_s2 = 4, recorder_bits = 12}
-background = {white_rms_m_s2 = 0.1, snr_db = 5}
+background = {white_rms_m_s2 = 0.1, snr_db = 5, snr_band_hz = [1000, 3000]}
 [part.defect]
 condition = "line"
 extent_deg = 2
@@ -120,6 +121,15 @@ def test_the_recorder_rounds_that_sum_and_clips_it_at_its_range(corpus: Corpus, 
     assert np.array_equal(np.round(signal / step) * step, signal)
 
 
+def test_the_envelope_is_that_of_what_the_recorder_keeps(corpus: Corpus) -> None:
+    band = corpus.labels.set_index("record").loc[3, ["envelope_band_low", "envelope_band_high"]]
+    _, sensor, layers = parts(corpus, 3)
+    unrecorded = sensor[:, 1] + layers.sum(axis=0)[:, 1]
+    of_both = [band_envelope(signal, 32768.0, tuple(band)) for signal in (corpus.signal(3), unrecorded)]
+    assert np.array_equal(corpus.waveform(3, "envelope"), of_both[0].astype(np.float32))
+    assert not np.allclose(*of_both, rtol=1e-2)
+
+
 def test_the_labels_say_which_layers_there_are_and_their_rms(corpus: Corpus) -> None:
     table = corpus.labels.set_index("record")
     for record in range(5):
@@ -174,7 +184,8 @@ def test_the_corpus_says_no_place_of_this_machine(folder: Path, recipe: Recipe) 
 def test_a_fixed_ratio_scales_all_layers_alike_to_it(recipe: Recipe, whole: bool) -> None:
     scenario = draw_scenario(recipe, 1)
     absolute = make_record(scenario, ("background",))
-    fixed = make_record(replace(scenario, noise_target=NoiseTarget(-3.0, whole)), ("background",))
+    target = {"noise_target": NoiseTarget(-3.0, whole), "snr_band": (1000.0, 3000.0)}
+    fixed = make_record(replace(scenario, **target), ("background",))
     assert fixed.labels["snr_db" if whole else "snr_band_db"] == pytest.approx(-3.0, abs=1e-9)
     assert absolute.background is not None
     assert fixed.background is not None

@@ -92,6 +92,7 @@ def test_release_and_regain_are_where_the_force_of_the_ball_is_lost_and_found(re
     assert record.contact_force is not None
     passes, seen = record.passes, 0
     assert passes.exit_time.min() >= 0.0
+    assert passes.entry_time.max() <= DURATION
     for k in np.flatnonzero(passes.complete & np.isfinite(passes.release_time)):
         force = record.contact_force[:, passes.row[k] - 1, passes.ball[k] - 1]
         lost, found = np.searchsorted(record.time, [passes.release_time[k], passes.regain_time[k]])

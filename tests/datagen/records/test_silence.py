@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
+import numpy as np
 import pytest
 from command_line import run
 
@@ -12,7 +13,9 @@ from datagen.corpus import Corpus
 from datagen.inspection.check import check_corpus
 from datagen.recipes.recipe import parse_recipe
 from datagen.records.record import make_record
+from datagen.records.response_warnings import lost_in_steps
 from datagen.scenarios.sampling import draw_scenario
+from physics.sensor.recorder import Recorder, recorded
 
 LOST = """name = "still"
 seed = 1
@@ -87,3 +90,11 @@ def test_a_ratio_that_could_not_be_set_is_a_reason_to_read_a_record_with_care(na
     assert told in idle_labels({"white_rms_m_s2": 0.1, name: 10})["validity"]
     assert told not in idle_labels({"white_rms_m_s2": 0.1, name: 10}, load=200.0)["validity"]
     assert told not in idle_labels({"white_rms_m_s2": 0.1})["validity"]
+
+
+def test_a_recorder_loses_nothing_of_a_signal_that_is_not_there() -> None:
+    signal = np.array([[0.0, 0.2], [0.0, -0.3]])
+    recorder = Recorder(full_scale=8.0, bits=4)  # its step is 1 m/s²
+    kept, _ = recorded(recorder, signal)
+    assert not kept.any()
+    assert "too coarse for the signal along y: " in lost_in_steps(recorder, signal, kept.astype(np.float32))

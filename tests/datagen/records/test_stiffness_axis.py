@@ -57,6 +57,7 @@ def test_the_axis_of_a_healthy_bearing_keeps_the_accuracy_and_is_not_needlessly_
         {"defect": SPALL},
         {"imperfections": {"waviness": [{"race": "outer", "orders": [5, 5], "amplitude_um": 1}]}},
         {"machine": {"rig": "ims"}},
+        {"machine": {"rig": "gearbox", "elements": "rollers"}},
         {"operation": {"load_n": 0}},
     ],
 )

@@ -183,6 +183,16 @@ def test_a_damaged_shard_is_made_again(
     assert contents(copy) == expected
 
 
+def test_a_shard_that_another_version_made_is_made_again(tiny: Recipe, copy: Path) -> None:
+    before = sidecar_path(copy, 1).read_text()
+    other = json.loads(before)
+    other["identity"]["model_hash"] = "0" * 16
+    sidecar_path(copy, 1).write_text(json.dumps(other))
+    run = generate(tiny, copy, engine=ALONE)
+    assert (run.made, run.new) == (14, 2)
+    assert json.loads(sidecar_path(copy, 1).read_text())["identity"] == json.loads(before)["identity"]
+
+
 def test_leftovers_of_killed_writers_are_swept(tiny: Recipe, copy: Path) -> None:
     leftover = copy / "shards" / ".shard_000000.nc.elsewhere.1.part"
     leftover.write_bytes(b"half")

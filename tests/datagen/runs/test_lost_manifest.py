@@ -59,6 +59,16 @@ def test_it_lists_as_asked_for_what_is_finished_and_what_this_run_asks_for(tiny:
     assert check_corpus(tmp_path, remake=0).sound
 
 
+@pytest.mark.usefixtures("record_3_fails")
+def test_it_lists_as_asked_for_what_could_not_be_made(tiny: Recipe, tmp_path: Path) -> None:
+    generate(tiny, tmp_path, records=[2, 3], engine=ALONE)
+    manifest_path(tmp_path).unlink()
+    generate(tiny, tmp_path, records=[0], engine=ALONE)
+    found = read_manifest(tmp_path)
+    assert found.asked == ((0, 1), (2, 4))
+    assert [failure.record for failure in found.failed] == [3]
+
+
 @pytest.mark.parametrize("damage", DAMAGES)
 def test_another_recipe_is_refused_and_everything_left_as_it_is(damage: str, copy: Path, tiny_recipe: Path) -> None:
     other = tiny_recipe.with_name("other.toml")

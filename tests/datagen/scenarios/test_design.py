@@ -82,6 +82,11 @@ def test_machines_and_records_are_stratified_each_among_themselves() -> None:
         assert sorted(np.floor(speeds * 4).astype(int)) == [0, 1, 2, 3]
 
 
+def test_a_latin_hypercube_puts_one_machine_into_each_of_as_many_strata_as_there_are_machines() -> None:
+    clearances = unit_cube(draw_all(recipe_of("latin_hypercube", 64, records_per_machine=5)))[::5, 2]
+    assert sorted(np.floor(clearances * 13).astype(int)) == list(range(13))
+
+
 def test_a_sobol_design_fills_the_joint_space_more_evenly_than_random_draws() -> None:
     found = qmc.discrepancy(unit_cube(draw_all(recipe_of("sobol", 128))))
     free = [qmc.discrepancy(np.random.default_rng(seed).random((128, 3))) for seed in range(50)]
@@ -156,3 +161,10 @@ def test_split_shares_of_a_designed_part_are_exact_to_one_machine() -> None:
     splits = [scenario.split for scenario in draw_all(recipe_of("latin_hypercube", 60))]
     for name, count in (("train", 42), ("validation", 9), ("test", 9)):
         assert abs(splits.count(name) - count) <= 1
+
+
+def test_machines_that_were_drawn_again_keep_the_split_that_the_design_gives_them() -> None:
+    fitting, tight = ({"rig": "gearbox", "ball_diameter_mm": balls} for balls in (7.5, {"uniform": [7.5, 13]}))
+    alike, drawn_again = (draw_all(recipe_of("latin_hypercube", 40, machine=machine)) for machine in (fitting, tight))
+    assert sum(bool(scenario.redraws) for scenario in drawn_again) > 10
+    assert [scenario.split for scenario in drawn_again] == [scenario.split for scenario in alike]

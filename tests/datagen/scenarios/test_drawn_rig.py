@@ -86,6 +86,20 @@ def test_the_machine_of_ones_own_on_the_datasets_page_has_what_must_be_given_and
             draw(**{name: value for name, value in machine.items() if name != key})
 
 
+@pytest.mark.parametrize("what", ["support_stiffness_{}_n_per_m", "support_damping_{}_n_s_per_m"])
+@pytest.mark.parametrize("axis", "xy")
+def test_a_drawn_rig_needs_the_number_of_the_other_axis_too(what: str, axis: str) -> None:
+    shared = "support_frequency_hz" if "stiffness" in what else "support_damping_ratio"
+    others = {name: value for name, value in RIG.items() if name != shared}
+    both = {what.format("x"): 1e7, what.format("y"): 1e7}
+    assert draw(**BEARING, **others, **both)
+    one = what.format("y" if axis == "x" else "x")
+    with pytest.raises(BadInput, match=f"one of {what.format(axis)}, {shared}"):
+        draw(**BEARING, **others, **{one: 1e7})
+    with pytest.raises(BadInput, match="set the same thing twice"):
+        draw(**BEARING, **RIG, **{one: 1e7})
+
+
 def test_k_of_a_drawn_bearing_is_hertzs() -> None:
     for rig in rigs(5, **BEARING, **RIG):
         b = rig.bearing
@@ -162,6 +176,31 @@ def test_altered_geometry_scales_the_catalogues_k_as_hertz_scales_his() -> None:
     assert other.bearing.load_deflection == catalog.bearing("rexnord_za2115").load_deflection
 
 
+@pytest.mark.parametrize("altered", [{"inner_conformity": 0.53}, {"outer_conformity": 0.55}, {"contact_angle_deg": 10}])
+def test_k_follows_every_number_of_the_geometry_by_itself(altered: dict[str, float]) -> None:
+    koyo = catalog.bearing("koyo_1205")
+    (rig,) = rigs(1, rig="gearbox", **altered)
+    factors = [
+        load_deflection_factor(
+            b.pitch_diameter, b.ball_diameter, b.contact_angle, b.inner_conformity, b.outer_conformity
+        )
+        for b in (rig.bearing, koyo)
+    ]
+    assert factors[0] != factors[1]
+    assert rig.bearing.load_deflection == pytest.approx(koyo.load_deflection * factors[0] / factors[1], rel=1e-14)
+
+
+def test_a_drawn_frequency_and_damping_ratio_hold_whatever_the_factors_of_the_masses() -> None:
+    stated = {"support_frequency_hz": 300, "support_damping_ratio": 0.03, "resonator_frequency_hz": 9000}
+    stated |= {"resonator_damping_ratio": 0.01, "factors": {"outer_mass": 1.5, "resonator_mass": 0.5}}
+    (rig,) = rigs(1, rig="gearbox", **stated)
+    assert rig.outer_mass == 1.5 * catalog.rig("gearbox").outer_mass
+    assert math.sqrt(rig.support_stiffness_y / rig.outer_mass) == pytest.approx(300 * 2 * math.pi)
+    assert math.sqrt(rig.resonator_stiffness / rig.resonator_mass) == pytest.approx(9000 * 2 * math.pi)
+    assert rig.support_damping_y == pytest.approx(2 * 0.03 * 300 * 2 * math.pi * rig.outer_mass)
+    assert rig.resonator_damping == pytest.approx(2 * 0.01 * 9000 * 2 * math.pi * rig.resonator_mass)
+
+
 def test_a_catalogue_bearing_in_a_drawn_rig_keeps_its_numbers() -> None:
     drawn = rigs(8, **RIG, bearing={"choice": ["koyo_1205", "skf_6205"]})
     assert {rig.bearing.name for rig in drawn} == {"koyo_1205", "skf_6205"}
@@ -193,6 +232,9 @@ def test_a_full_bearing_holds_as_many_balls_as_fit_side_by_side() -> None:
     for fill, balls in ((1.0, 15), (0.9, 14), (0.95, 14)):
         (rig,) = rigs(**(BEARING | {"ball_diameter_of_pitch": 0.2, "fill": fill}), **RIG)
         assert rig.bearing.balls == balls
+    # Six circles fit round one of their own size, so half of them are three, though pi / asin(0.5) is a rounding below.
+    (rig,) = rigs(**(BEARING | {"ball_diameter_of_pitch": 0.5, "fill": 0.5}), **RIG)
+    assert rig.bearing.balls == 3
 
 
 def test_support_and_resonator_have_a_factor_of_damping_each() -> None:

@@ -12,6 +12,7 @@ from datagen.scenarios.feasibility import CERTAIN_REACH, farthest_rest, require_
 from physics import catalog
 from physics.cage import CagePath
 from physics.checks import InvalidParameter
+from physics.imperfections import Imperfections, Waviness
 from physics.operation import Operation
 from physics.scene import Scene
 from physics.spall import Spall
@@ -34,6 +35,18 @@ def test_the_shaft_rests_within_the_bound(load: float, depth: float) -> None:
         one = scene(load, depth=depth, cage_angle=float(angle))
         rest = float(np.hypot(*equilibrium(one, np.zeros(1)).displacement[0]))
         assert 0.0 < rest <= farthest_rest(one)
+
+
+def test_small_balls_and_waves_of_the_race_are_within_the_bound_as_a_floor_of_their_depth_is() -> None:
+    plain = scene(100.0)
+    bearing = plain.rig.bearing
+    side = math.cos(bearing.spacing / 2.0)
+    small = Imperfections(ball_deviation=((-3e-4,) * bearing.balls,) * bearing.rows)
+    wavy = Imperfections(waviness=(Waviness("outer", 2, 1e-4), Waviness("inner", 3, 2e-4)))
+    for imperfections in (small, wavy):
+        one = replace(plain, imperfections=imperfections)
+        assert farthest_rest(one) - farthest_rest(plain) == pytest.approx(3e-4 / side)
+        assert float(np.hypot(*equilibrium(one, np.zeros(1)).displacement[0])) <= farthest_rest(one)
 
 
 def test_no_usual_scene_is_in_doubt() -> None:

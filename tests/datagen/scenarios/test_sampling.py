@@ -18,6 +18,7 @@ from datagen.scenarios.redraw import MOST_ATTEMPTS
 from datagen.scenarios.sampling import draw_scenario
 from datagen.scenarios.scenario import Scenario
 from datagen.scenarios.scenario_text import scenario_json
+from datagen.scenarios.streams import stream
 from physics import catalog
 from physics.bearing import Bearing
 from physics.hertz import contact_width
@@ -121,6 +122,64 @@ def test_several_spalls_keep_their_separation_and_draw_their_own_size() -> None:
     spalls = draw(defect=defect)[0].scene.spalls
     assert [math.degrees(spall.angle) for spall in spalls] == pytest.approx([270, 0, 90], abs=1e-9)  # sums of angles
     assert len({spall.extent for spall in spalls}) == 3
+
+
+def test_each_further_spall_has_a_stream_and_a_roughness_of_its_own() -> None:
+    sizes = {"extent_deg": {"uniform": [1, 3]}, "depth_um": 12, "roughness_um": 1, "profile": "ball_path"}
+    (scenario,) = draw(defect={"condition": "line", "count": 3, "separation_deg": 90} | sizes)
+    # After row, count and angle, which the first spall settles for all; after the separation, which the others have.
+    for spall, item, place in zip(scenario.scene.spalls, range(3), (3, 1, 1), strict=True):
+        number = stream(5, "record", 0, "spall", item=item).random(place + 1)[place]
+        assert math.degrees(spall.extent) == pytest.approx(1.0 + 2.0 * number)
+        generator = stream(5, "record", 0, "roughness", item=item)
+        expected = draw_roughness(generator, scenario.scene.rig.bearing, "outer", spall.extent, 1e-6, None)
+        assert spall.roughness_values == expected
+
+
+def test_a_ball_spacing_in_degrees_may_be_rounded_down_in_its_last_figure() -> None:
+    spacing = 32.7272727272727  # of 11 balls: 360 / 11, which is more
+    assert spacing < 360 / 11
+    (scenario,) = draw(machine={"rig": "gearbox", "balls": 11}, defect=EXTENDED | {"extent_deg": spacing})
+    assert scenario.condition == "extended"
+
+
+def test_of_several_spalls_the_largest_makes_a_record_extended() -> None:
+    defect = {"condition": "extended", "count": 2, "separation_deg": 90, "extent_spacing": {"uniform": [0.5, 1.5]}}
+    scenarios = draw(20, defect=defect | {"depth_um": 6})
+    extents = np.array([[spall.extent for spall in scenario.scene.spalls] for scenario in scenarios])
+    spacing = scenarios[0].scene.rig.bearing.spacing
+    assert (extents.max(axis=1) >= spacing).all()
+    assert (extents[:, 0] < spacing).any()
+
+
+@pytest.mark.parametrize(("profile", "share"), [("tukey", 0.1), ("ball_path", 0.0)])
+def test_tapers_left_out_are_a_tenth_of_the_spall_where_no_ball_is_rolled_over_it(profile: str, share: float) -> None:
+    (spall,) = draw(defect=EXTENDED | {"profile": profile})[0].scene.spalls
+    assert (spall.entry_taper, spall.exit_taper) == pytest.approx([share * math.radians(40)] * 2)
+
+
+def test_the_settings_of_the_operation_take_one_number_each_in_the_order_of_their_table() -> None:
+    high = {"speed_of_rated": 1, "load_of_rated": 1, "unbalance_n": 1, "unbalance_phase_deg": 1, "load_fluctuation": 1}
+    high |= {"fluctuation_phase_deg": 1, "cage_angle_deg": 1, "second_cage_angle_deg": 1}
+    high |= {"mean_slip": 0.1, "slip_deviation": 0.05, "slip_correlation_passes": 1}
+    low = {"speed_of_rated": 0.1, "slip_correlation_passes": 0.1}
+    ranges = {name: {"uniform": [low.get(name, 0), end]} for name, end in high.items()}
+    machine = {"rig": "gearbox", "separate_cages": True}
+    scenario = draw(machine=machine, operation=ranges)[0]
+    run, scene = scenario.scene.operation, scenario.scene
+    rig, second = scene.rig, scene.second_cage
+    assert second is not None
+    passes = scenario.slip_correlation_time * scene.cage.nominal_speed / rig.bearing.spacing
+    found = [run.shaft_speed / rig.rated_speed, run.load / rig.rated_load, run.unbalance_force]
+    found += [math.degrees(run.unbalance_phase), run.load_fluctuation, math.degrees(run.fluctuation_phase)]
+    found += [math.degrees(scene.cage.start_angle), math.degrees(second.start_angle)]
+    found += [scene.cage.mean_slip, scenario.slip_deviation, passes]
+    numbers = stream(5, "record", 0, "operation").random(len(high))
+    expected = [
+        low.get(name, 0) + number * (end - low.get(name, 0))
+        for (name, end), number in zip(high.items(), numbers, strict=True)
+    ]
+    assert found == pytest.approx(expected)
 
 
 def test_overlapping_spalls_are_drawn_again() -> None:
@@ -270,6 +329,12 @@ def test_an_override_lands_in_its_field_in_si_units(setting: str, field: str, pe
 def test_another_number_of_balls_takes_half_its_own_spacing_as_stagger() -> None:
     bearing = draw(machine={"rig": "gearbox", "balls": 11})[0].scene.rig.bearing
     assert bearing.stagger == math.pi / 11
+    bearing = draw(machine={"rig": "gearbox", "balls": 11, "row_offset_deg": 9})[0].scene.rig.bearing
+    assert bearing.stagger == pytest.approx(math.pi / 20)
+
+
+def test_a_catalogue_bearing_may_be_given_another_number_of_rows() -> None:
+    assert [draw(machine={"rig": "gearbox", "rows": rows})[0].scene.rig.bearing.rows for rows in (1, 2)] == [1, 2]
 
 
 def test_waviness_falls_with_its_order() -> None:
@@ -335,9 +400,9 @@ def test_an_impossible_machine_is_redrawn_once_for_all_its_records() -> None:
         ),
         ({"defect": SHORT | {"condition": "extended"}}, "defect.extent_mm = 1.0", "allowed: at least 30 degrees"),
         (
-            {"defect": LONG | {"extent_mm": 900}},
-            "defect.extent_mm = 900.0",
-            "the spall covers 2248 degrees; allowed: at most 180 degrees, on this raceway 72.05 mm or 6 ball spacings",
+            {"defect": LONG | {"extent_mm": 100}},
+            "defect.extent_mm = 100.0",
+            "the spall covers 249.8 degrees; allowed: at most 180 degrees, on this raceway 72.05 mm or 6 ball spacings",
         ),
         (
             {"defect": SHORT | {"entry_taper_deg": 20}},
@@ -395,6 +460,8 @@ def test_a_resonance_that_is_not_recorded_needs_a_band_of_ones_own() -> None:
     with pytest.raises(BadInput, match="rings at 10548 Hz, too high for a sampling rate of 16384 Hz; allowed: rate_hz"):
         draw_scenario(recipe_of(altered, signal=slow), 0)
     assert draw_scenario(recipe_of(HEALTHY, signal=slow | {"envelope_band_hz": [500, 4000]}), 0).rate == 16384
+    with pytest.raises(BadInput, match="rings at 10548 Hz"):  # whose band, 5 % to either side, is recorded in part
+        draw_scenario(recipe_of(altered, signal={"rate_hz": 21000, "duration_s": 0.1}), 0)
 
 
 def test_the_duration_is_rounded_to_whole_samples() -> None:

@@ -109,6 +109,13 @@ def test_one_mode_more_moves_no_other() -> None:
     assert four.modes[:3] + four.modes[4:] == three.modes
 
 
+def test_groups_of_modes_that_are_said_alike_are_drawn_apart() -> None:
+    group = {"frequency_hz": {"uniform": [1000, 15000]}, "damping": {"uniform": [0.01, 0.1]}}
+    one, other = draw_scenario(recipe({"modes": [group, group]}), 0).chain.modes
+    assert one.frequency != other.frequency
+    assert one.damping != other.damping
+
+
 def test_amplitudes_fall_with_their_order_and_each_is_drawn() -> None:
     fixed = {"mains_hum": {"amplitude_m_s2": 6, "harmonics": 3, "decay": 2}}
     hum = draw_scenario(recipe(background=fixed), 0).background.mains_hum
@@ -132,6 +139,30 @@ def test_a_resonance_drawn_beyond_half_the_rate_is_drawn_again_and_counted() -> 
     redraws = [redraw for scenario in scenarios for redraw in scenario.redraws]
     assert {(redraw.scope, redraw.field) for redraw in redraws} == {("machine", "frequency")}
     assert "allowed: from 0 to below 16384 Hz" in redraws[0].reason
+
+
+@pytest.mark.parametrize("layer", ["impulses", "pink"])
+def test_what_is_drawn_of_a_layer_beyond_half_the_rate_is_drawn_again_and_counted(layer: str) -> None:
+    levels: dict[str, Any] = {
+        "impulses": {"per_second": 5, "amplitude_m_s2": 1, "resonances": 3, "frequency_hz": {"normal": [16000, 5000]}},
+        "pink": {"rms_m_s2": 1, "lowest_hz": {"normal": [16000, 5000]}},
+    }
+    scenarios = [draw_scenario(recipe(background={layer: levels[layer]}), record) for record in range(6)]
+    assert {redraw.scope for scenario in scenarios for redraw in scenario.redraws} == {"machine"}
+    for background in (scenario.background for scenario in scenarios):
+        found = [ring.frequency for ring in background.impulses.resonances] if background.impulses else []
+        found += [background.pink.lowest] if background.pink else []
+        assert found
+        assert max(found) < RATE / 2.0
+
+
+@pytest.mark.parametrize("band", [{}, {"snr_band_hz": [500, 900]}])
+@pytest.mark.parametrize(("ratio", "whole"), [("snr_db", True), ("snr_band_db", False)])
+def test_each_ratio_is_over_its_own_band_whether_a_band_is_stated_or_not(
+    ratio: str, whole: bool, band: dict[str, Any]
+) -> None:
+    scenario = draw_scenario(recipe(background={"white_rms_m_s2": 1, ratio: 7} | band), 0)
+    assert scenario.noise_target == NoiseTarget(7.0, whole)
 
 
 def test_a_fixed_ratio_is_drawn_for_each_record() -> None:

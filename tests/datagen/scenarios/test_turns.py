@@ -132,6 +132,14 @@ def test_a_spall_of_a_machine_that_cannot_be_is_redrawn_with_its_machine() -> No
     )
 
 
+def test_spalls_of_a_machine_that_lie_on_one_another_are_redrawn_with_their_machine() -> None:
+    defect = {"condition": "line", "extent_deg": 20, "depth_um": 10, "count": 4, "drawn_for": "machine"}
+    scenarios = draw_all(recipe_of(40, records_per_machine=2, defect=defect))
+    redraws = {(redraw.scope, redraw.field) for scenario in scenarios for redraw in scenario.redraws}
+    assert redraws == {("machine", "angle")}
+    assert all(len(scenario.scene.spalls) == 4 for scenario in scenarios)
+
+
 def test_a_spall_on_any_row_lies_on_each_row_that_the_bearing_has() -> None:
     line = {"condition": "line", "extent_deg": 2, "depth_um": 10, "row": "any"}
     assert {s.scene.spalls[0].row for s in draw_all(recipe_of(12, defect=line))} == {1, 2}

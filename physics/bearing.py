@@ -12,6 +12,8 @@ RACES = ("outer", "inner")
 DEFAULT_CONFORMITY = 0.52
 SMALLEST_CONFORMITY = 0.501
 LARGEST_CONTACT_ANGLE = math.radians(60.0)
+# Balls may be larger than their chord by this share: those that just touch are so by rounding.
+ROUNDING = 1e-12
 
 
 @dataclass(frozen=True)
@@ -56,7 +58,7 @@ class Bearing:
         require_between("outer_conformity", self.outer_conformity, SMALLEST_CONFORMITY, 1e3)
         chord = self.pitch_diameter * math.sin(math.pi / self.balls)
         require(
-            chord >= self.ball_diameter,
+            chord >= self.ball_diameter * (1.0 - ROUNDING),
             f"{self.balls} balls of {self.ball_diameter * 1e3:.3f} mm do not fit on a pitch circle of "
             f"{self.pitch_diameter * 1e3:.3f} mm: neighbours are {chord * 1e3:.3f} mm apart",
             "ball_diameter",

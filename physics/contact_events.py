@@ -18,8 +18,8 @@ def contact_events(
     A pass lasts from `entry` to `leave` (N,), s. `release` is the first loss of contact in it and `regain` the
     beginning of contact that ends the last loss in it, be it later; both are NaN if the ball kept contact or did not
     touch at entry (or at 0, if that is later), and `regain` alone if contact does not begin again. `loaded`: the ball
-    touches both races at some moment of the pass. `lost`: contact is lost in it, be it that of a ball
-    that did not touch at entry.
+    touches both races at some moment of the pass. `lost`: contact is lost in it, be it that of a ball that did not
+    touch at entry.
     """
     own = changes.row == row
     order = np.lexsort((changes.time[own], changes.ball[own]))

@@ -96,7 +96,7 @@ def _resonator_stiffness(value: float, hertz: str) -> Sourced:
 
 
 def _stiffness(value: float) -> Sourced:
-    return assumed(value, "N/m", "puts the support modes at 250 to 650 Hz, as the paper's rigs have 200 and 460 Hz")
+    return assumed(value, "N/m", "puts the lowest mode at 250 to 650 Hz, as the paper's rigs have 200 and 460 Hz")
 
 
 def _damping(value: float, share: str) -> Sourced:

@@ -143,6 +143,14 @@ def test_an_impossible_bearing_is_refused_by_field_and_value(change, message):
     assert caught.value.field in (*change, "ball_diameter")
 
 
+def test_six_balls_that_touch_each_other_fit():
+    # Their centres are a hexagon, whose side is the radius of its circle; sin 30° is 0.49999999999999994 here.
+    hexagon = dataclasses.replace(SIMPLE, balls=6, pitch_diameter=0.04, ball_diameter=0.02)
+    assert hexagon.spacing == pytest.approx(math.pi / 3.0, rel=1e-15)
+    with pytest.raises(InvalidParameter, match="do not fit"):
+        dataclasses.replace(hexagon, ball_diameter=0.02 * (1.0 + 1e-9))
+
+
 def test_a_race_of_another_name_is_refused():
     with pytest.raises(InvalidParameter, match='race = "cage"; allowed: outer, inner'):
         SIMPLE.raceway_radius("cage")

@@ -111,6 +111,19 @@ def test_spalls_of_machines_are_balanced_within_each_balanced_rig() -> None:
         assert blocks(conditions, 5) == [Counter(healthy=1, line=2, extended=2)] * 4
 
 
+def test_what_is_balanced_about_the_spalls_of_machines_is_exact_within_each_of_their_kinds() -> None:
+    depths = {"condition": "line", "extent_deg": 2, "depth_um": {"balanced": [10, 20]}, "drawn_for": "machine"}
+    rigs = {"rig": {"balanced": ["gearbox", "fan"]}}
+    defect = depths | {"race": DEFECT["race"]}
+    scenarios = draw_all(recipe_of(64, records_per_machine=2, machine=rigs, defect=defect))
+    of_machines = scenarios[::2]
+    assert [scenario.scene.spalls for scenario in scenarios[1::2]] == [one.scene.spalls for one in of_machines]
+    for rig in ("gearbox", "fan"):
+        for race in ("outer", "inner"):
+            alike = [one.scene.spalls[0].depth for one in of_machines if (one.rig, one.location) == (rig, race)]
+            assert blocks([f"{depth:g}" for depth in alike], 2) == [Counter({"1e-05": 1, "2e-05": 1})] * 4
+
+
 def test_the_first_records_of_a_machine_may_be_from_before_its_damage() -> None:
     defect = {"condition": "line", "extent_deg": {"uniform": [1, 3]}, "depth_um": 10, "roughness_um": 1}
     whole = draw_all(recipe_of(12, records_per_machine=3, defect=defect | {"drawn_for": "machine"}))

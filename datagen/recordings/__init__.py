@@ -2,8 +2,8 @@
 
 - `spec_files`: where a SPEC is found; `spec`: the whole; `settings`: what it says of a recording; `values`: its numbers
 - `listing`: which records it asks for; `part_files`: in which files, with `root`, `file_names` and `label_table`
-- `opened_files`: each opened once, as a `source`; `recorded`: its records; `doubts`: what is odd about them;
-  `unchanged`: files that must not change during an import
+- `opened_files`: each opened once, as a `source`; `missing`: what fills its gaps; `recorded`: its records; `doubts`:
+  what is odd about them; `unchanged`: files that must not change during an import
 - `sample_times`: the sampling rate; `stated_rate`: whether the file tells another
 - `shaft_speed`: the speed, with the `pulse_times` and `pulses` of a tach
 - `description`: labels; `dataset`: the records as a shard holds them

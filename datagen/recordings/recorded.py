@@ -20,6 +20,7 @@ from datagen.recipes.signal_settings import FEWEST_STORED_SAMPLES
 from datagen.recordings.description import contact_numbers, recording_labels
 from datagen.recordings.doubts import level_doubts, scale_doubts, speed_doubts, standing_doubt
 from datagen.recordings.listing import Request
+from datagen.recordings.missing import foretold
 from datagen.recordings.opened_files import open_source, source_hash
 from datagen.recordings.settings import UNITS
 from datagen.recordings.shaft_speed import shaft_speeds, told_course
@@ -145,7 +146,7 @@ def _rate(source: Source) -> float:
 
 def _samples(source: Source, axes: tuple[str, ...]) -> NDArray[np.float64]:
     """The stored numbers (T, axes)."""
-    columns = [source.array(getattr(source.request.channel, axis), axis) for axis in axes]
+    columns = [source.array(getattr(source.request.channel, axis), axis, foretold) for axis in axes]
     if len({column.size for column in columns}) > 1:
         sizes = " and ".join(str(column.size) for column in columns)
         raise BadInput(f"the axes differ in length: {sizes} samples", str(source.path), "x, y")

@@ -4,7 +4,7 @@
 - `description`: labels of a scene; `truth`, `load_dips`: what each ball pass truly did, and when
 - `band`, `envelope`, `spectrum`, `spectrogram`, `density`, `noise`: signals as an analyst looks at them
 - `band_tree`: the bands that are searched; `kurtogram`: the one of them in which a signal is most impulsive
-- `dead_sensor`: whether it is that of a sensor at all
+- `dead_sensor`: whether it is that of a sensor at all; `filling`: what stands in for samples that are missing or wrong
 - `event_scores`: found events against true ones; `interval`: an estimated number with the interval around it
 - `features/`: the feature table of a record; `classifier/`: what is learned from it; `spall_size/`: sizes from signals
 """

@@ -33,6 +33,8 @@ SLOWEST_RPM = 300.0
 SLOWEST_LIKELY_RPM = 100.0
 # Speed, rpm, above which a stated one may be meant in another unit: few shafts turn faster than 1000 times a second.
 FASTEST_RPM = 60_000.0
+# Pitch diameter, mm, below which a stated one may be meant in inches: those of dental drills have more.
+SMALLEST_PITCH_MM = 4.0
 LOUD = "louder than machines are, as if `scale` or `unit` were wrong"
 OFFSET = f"with a mean above {LARGEST_OFFSET:g} times the vibration around it, as of gravity or a sensor's bias"
 CLIPPED = "with peaks cut off, as if the recorder's range were too small"
@@ -137,6 +139,17 @@ def speed_doubts(labels: Mapping[str, Any], turns: float, settings: Container[st
     if 0.0 < rpm < SLOWEST_LIKELY_RPM and turns >= FEWEST_TURNS and stated in settings:
         return {f"with a shaft slower than {SLOWEST_LIKELY_RPM:g} rpm, as if `{stated}` were in Hz": f"{rpm:g} rpm"}
     return {}
+
+
+def geometry_doubts(labels: Mapping[str, Any]) -> dict[str, str]:
+    """Says so, with the figure, if the bearing of the record with these `labels` is smaller than bearings are; empty if
+    not, or if its size is unknown."""
+    pitch_mm = 1e3 * labels.get("pitch_diameter", math.nan)
+    if not pitch_mm < SMALLEST_PITCH_MM:
+        return {}
+    return {
+        f"with a bearing of less than {SMALLEST_PITCH_MM:g} mm pitch diameter, as if in inches": f"{pitch_mm:.4g} mm"
+    }
 
 
 def _stated(labels: Mapping[str, Any]) -> str:

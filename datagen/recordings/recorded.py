@@ -18,7 +18,7 @@ from datagen.formats.reading import file_format
 from datagen.formats.wav_file import RATE_NAME
 from datagen.recipes.signal_settings import FEWEST_STORED_SAMPLES
 from datagen.recordings.description import contact_numbers, recording_labels
-from datagen.recordings.doubts import level_doubts, scale_doubts, speed_doubts, standing_doubt
+from datagen.recordings.doubts import geometry_doubts, level_doubts, scale_doubts, speed_doubts, standing_doubt
 from datagen.recordings.listing import Request
 from datagen.recordings.opened_files import open_source, source_hash
 from datagen.recordings.settings import UNITS
@@ -28,6 +28,7 @@ from datagen.recordings.stated_rate import rate_doubts
 from datagen.recordings.values import RANGES, FromVariable, in_range
 from labels.band import holds_a_line
 from labels.dead_sensor import is_dead
+from labels.filling import foretold
 from labels.kurtogram import most_impulsive_band
 from labels.variables import AXES
 from physics.angular_speed import RPM_PER_HZ
@@ -93,7 +94,7 @@ def read_recording(request: Request) -> Iterator[Recorded]:
     shortest = min(stop - start for start, stop in pieces)
     band = _band(source, rate, shortest, counts[slice(*part), axes.index("y")] if "y" in axes else None)
     labels = recording_labels(source) | {"rate_hz": rate, "envelope_band": band}
-    of_file = scale_doubts(source) | rate_doubts(source, rate, counts.shape[0])
+    of_file = scale_doubts(source) | rate_doubts(source, rate, counts.shape[0]) | geometry_doubts(labels)
     speeds = shaft_speeds(source, rate, counts.shape[0], part, pieces)
     for piece, ((start, stop), speed) in enumerate(zip(pieces, speeds, strict=True)):
         samples = counts[start:stop]
@@ -145,7 +146,7 @@ def _rate(source: Source) -> float:
 
 def _samples(source: Source, axes: tuple[str, ...]) -> NDArray[np.float64]:
     """The stored numbers (T, axes)."""
-    columns = [source.array(getattr(source.request.channel, axis), axis) for axis in axes]
+    columns = [source.array(getattr(source.request.channel, axis), axis, foretold) for axis in axes]
     if len({column.size for column in columns}) > 1:
         sizes = " and ".join(str(column.size) for column in columns)
         raise BadInput(f"the axes differ in length: {sizes} samples", str(source.path), "x, y")

@@ -118,7 +118,7 @@ class RecordingSettings(Table):
     """Speed to assume where the variable of `speed_rpm` or `speed_hz` is absent, where `tach` is absent or shows no
     pulse, or where none of these is given. A tach must agree with it within 20 %."""
     missing_samples: Annotated[str, word("refuse", "fill")] | None = None
-    """Samples that are no finite numbers: refused, or filled by straight lines over gaps of 10 at most, 1 % of all."""
+    """Samples that are no finite numbers: refused, or filled in gaps of 10 at most, 1 % of all."""
     bearing: str | BearingNumbers | None = None
     """Name of a bearing in the catalogue, or its geometry."""
     from_s: NonNegative | None = None

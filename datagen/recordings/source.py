@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
@@ -20,13 +21,14 @@ from datagen.recipes.signal_settings import FEWEST_STORED_SAMPLES
 from datagen.recordings.listing import Request
 from datagen.recordings.sample_times import rate_of
 from datagen.recordings.values import RANGES, FromVariable, in_range
+from labels.filling import straight
 from physics.arrays import Array
 
 LONGEST_CELL = 40
 FILL = "fill"
 # What text tables have where a sample is missing.
 EMPTY = ("", "nan", "na", "n/a", "null", "none", "-")
-# Samples in a row, and the share of all, that may be missing and filled by straight lines.
+# Samples in a row, and the share of all, that may be missing and filled.
 LONGEST_GAP, MOST_MISSING = 10, 0.01
 # What cannot have a mean: several numbers are then those of several channels or bearings.
 CONSTANT = ("rate_hz", "scale", "bpfo", "bpfi", "bsf", "ftf", "extent_mm", "extent_deg", "depth_um")
@@ -68,8 +70,9 @@ class Source:
             raise BadInput("is empty for this file", str(self.path), name, said, "a name")
         return text
 
-    def array(self, wish: str, field: str) -> Array:
-        """The samples (T,) of a variable: finite numbers, at least 16, short gaps filled if that is asked for."""
+    def array(self, wish: str, field: str, fill: Callable[[Array, NDArray[np.intp]], Array] = straight) -> Array:
+        """The samples (T,) of a variable: finite numbers, at least 16, short gaps filled by `fill` if the SPEC asks for
+        that."""
         found = self._row(wish, field)
         if found.size < FEWEST_STORED_SAMPLES:
             raise BadInput(
@@ -88,9 +91,7 @@ class Source:
                 f"what is filled must be empty or NaN, at most {LONGEST_GAP} in a row and {MOST_MISSING:.0%} of all"
             )
             raise self._not_finite(bad, values.size, wish, field, allowed)
-        good = np.flatnonzero(np.isfinite(values))
-        values[bad] = np.interp(bad, good, values[good])
-        return values
+        return fill(values, bad)
 
     def instants(self, wish: str, field: str) -> Array:
         """The rising finite numbers (N,) that a variable lists, without what is missing behind the last of them, as in

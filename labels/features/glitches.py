@@ -1,4 +1,4 @@
-"""Glitches: a sample or three that a recorder wrote wrongly, far from all their neighbours. They are drawn over.
+"""Glitches: a sample or three that a recorder wrote wrongly, far from all their neighbours. They are replaced.
 
 An impact rings for longer than that. What comes oftener than once a turn belongs to the machine and is left alone.
 """
@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import median_filter
 
+from labels.filling import foretold
 from physics.arrays import Array
 
 # Samples of a glitch, or of glitches side by side.
@@ -23,7 +24,7 @@ SPREAD_QUANTILE, DEVIATIONS_THERE = 0.95, 1.96
 
 
 def without_glitches(signal: Array, most: float) -> tuple[Array, int]:
-    """The signal (T,) with straight lines drawn over its glitches, and how many there were.
+    """The signal (T,) with what goes on from their neighbours in place of its glitches, and how many there were.
 
     The signal as it is and 0 where there are more than `most`, or fewer samples than a glitch is looked for among.
     """
@@ -33,10 +34,7 @@ def without_glitches(signal: Array, most: float) -> tuple[Array, int]:
     count = int(np.count_nonzero(np.diff(wrong, prepend=False) & wrong))
     if not 0 < count <= most:
         return signal, 0
-    good = np.flatnonzero(~wrong)
-    repaired = signal.copy()
-    repaired[wrong] = np.interp(np.flatnonzero(wrong), good, signal[good])
-    return repaired, count
+    return foretold(signal, np.flatnonzero(wrong)), count
 
 
 def _glitches(signal: Array) -> NDArray[np.bool_]:

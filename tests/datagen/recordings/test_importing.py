@@ -559,6 +559,21 @@ def test_a_speed_that_hardly_any_machine_has_comes_in_with_a_warning(
 
 
 @pytest.mark.parametrize(
+    ("ball", "pitch", "message"),
+    [
+        (0.3126, 1.537, "1 with a bearing of less than 4 mm pitch diameter, as if in inches: a (1.537 mm)\n"),
+        (7.94, 39.04, ""),
+    ],
+)
+def test_a_bearing_stated_in_inches_comes_in_with_a_warning(
+    ball: float, pitch: float, message: str, mat: Mat, tmp_path: Path
+) -> None:
+    mat("a.mat")
+    bearing = f"bearing = {{balls = 9, ball_diameter_mm = {ball}, pitch_diameter_mm = {pitch}}}\n"
+    assert told_of(f'files = "*.mat"\nrate_hz = 1000\ny = "sig"\n{bearing}', tmp_path) == message
+
+
+@pytest.mark.parametrize(
     ("kind", "scale", "message"),
     [
         (np.int16, "", "1 in whole numbers of .wav without `scale`, taken as ±1 g at full scale: a\n"),

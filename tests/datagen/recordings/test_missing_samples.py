@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from imports import Bring, Mat
+from scipy.signal import lfilter
 
 from datagen.errors import BadInput
 
@@ -31,6 +32,18 @@ def test_what_is_filled_is_counted_over_all_axes(bring: Bring, mat: Mat) -> None
     mat("a.mat", y, other=x)
     corpus = bring(GAPS + 'x = "other"\nmissing_samples = "fill"\n')
     assert json.loads(corpus.waveform(0, "provenance"))["mended_samples"] == 3
+
+
+def test_a_filled_vibration_goes_on_in_its_gaps(bring: Bring, mat: Mat) -> None:
+    draws = np.random.default_rng(3)
+    ringing = lfilter([1.0], [1.0, -1.2, 0.9], draws.standard_normal(20_000))  # a resonance at 0.14 of the rate
+    gaps = (draws.choice(2000, 20, replace=False)[:, None] * 10 + np.arange(8)).ravel()
+    gaps = np.concatenate([[0, 1], gaps[gaps > 9], [19_999]])
+    mat("a.mat", np.where(np.isin(np.arange(20_000), gaps), np.nan, ringing))
+    filled = bring(GAPS + 'missing_samples = "fill"\n').waveform(0)[:, 0] / 9.80665
+    untouched = np.delete(np.arange(20_000), gaps)
+    np.testing.assert_allclose(filled[untouched], ringing[untouched], rtol=1e-6)
+    assert np.std((filled - ringing)[gaps]) < 0.6 * np.std(ringing)  # straight lines are off by 1.2 times it
 
 
 @pytest.mark.parametrize("gaps", [range(100, 111), range(0, 2000, 60)])

@@ -1,7 +1,7 @@
 """Draws docs/pictures/transfer.png: python docs/make_transfer_picture.py REPORT.json
 
 The report of `spallgen classify` is that of the main run of docs/transfer.md, from which make_transfer.py writes its
-tables.
+tables. What depends on SNR, speed, size and probability is of docs/crossfitted.json (make_crossfitted.py).
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from make_crossfitted import FOUND
 from make_transfer import FAULTS, has_faults
 from matplotlib.figure import Figure
 
@@ -30,23 +31,24 @@ if TYPE_CHECKING:
 
 PICTURE = Path(__file__).with_name("pictures") / "transfer.png"
 NOISY = ("cwru_de12k", "mfpt")
-SIMULATED, IMPORTANT = "transfer", "forest"
+IMPORTANT = "forest"
 SIZE, DPI = (12.0, 10.5), 110
 HEADINGS = (
     "On recordings, and on simulated machines for comparison",
-    "On simulated machines that nothing was learned from",
+    "On all simulated machines of transfer, each judged by learners of others",
     "Probabilities on the same machines, and what was learned",
 )
 
 
 def main(path: Path) -> None:
-    """Draw the picture of one report."""
-    report = json.loads(path.read_text())
-    PICTURE.write_bytes(png_of(lambda: draw(report), DPI))
+    """Draw the picture of one report, and of the scores of all machines judged by learners of others."""
+    report, of_others = json.loads(path.read_text()), json.loads(FOUND.read_text(encoding="utf-8"))["scores"]["models"]
+    PICTURE.write_bytes(png_of(lambda: draw(report, of_others), DPI))
 
 
-def draw(report: dict[str, Any]) -> Figure:
-    """Scores by corpus and by added noise; by SNR, speed and size of simulated records; calibration and learning."""
+def draw(report: dict[str, Any], of_others: dict[str, Any]) -> Figure:
+    """Scores by corpus and by added noise; then by SNR, speed and size, with the calibration, those `of_others`, by
+    model, of simulated machines that were not learned from; learning curve and features."""
     tests = {Path(test["corpus"]).name: test for test in report["tests"]}
     figure = Figure(figsize=SIZE, layout=roomy())
     above, middle, below = figure.subfigures(len(HEADINGS), 1, squeeze=False)[:, 0]
@@ -56,11 +58,10 @@ def draw(report: dict[str, Any]) -> Figure:
     draw_corpora(by_corpus, {name: test for name, test in tests.items() if has_faults(test)})
     for axes, name in zip(in_noise, NOISY, strict=True):
         draw_noise_added(axes, name, tests[name])
-    models = tests[SIMULATED]["models"]
     for axes, quantity in zip(middle.subplots(1, len(AGAINST)), AGAINST, strict=True):
-        draw_against(axes, {name: said["accuracy_against"][quantity] for name, said in models.items()}, quantity)
+        draw_against(axes, {name: said["accuracy_against"][quantity] for name, said in of_others.items()}, quantity)
     reliability, curve, importances = below.subplots(1, 3)
-    draw_reliability(reliability, {name: said.get("reliability") for name, said in models.items()})
+    draw_reliability(reliability, {name: said.get("reliability") for name, said in of_others.items()})
     draw_curve(curve, report["learning_curve"])
     draw_importances(importances, IMPORTANT, report["importances"][IMPORTANT])
     return figure

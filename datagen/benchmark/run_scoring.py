@@ -14,7 +14,7 @@ from datagen.benchmark.predictions import record_predictions
 from datagen.benchmark.results import CorpusResults, NoisyScores
 from datagen.benchmark.summary import summarise
 from datagen.benchmark.trained import Trained
-from datagen.benchmark.verdicts import Judges, pooled_draws
+from datagen.benchmark.verdicts import Judges, pool
 from datagen.judging.scored_runs import write_line
 from datagen.progress import Listener
 from physics.bearing import RACES
@@ -56,4 +56,4 @@ def _noisy(
         count = listener.counting(f"{level:g} dB, draw {draw + 1} of {draws}")
         rows = read_rows(chosen.folder, chosen.numbers, reading, benchmark.workers, count)
         pooled.append(judges.judge(chosen, rows))
-    return NoisyScores(level, draws, summarise(pooled_draws(pooled)))
+    return NoisyScores(level, draws, summarise(pool(pooled)))

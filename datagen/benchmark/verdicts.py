@@ -158,17 +158,17 @@ def vote(model: Model, rows: Rows, records: NDArray[np.int64]) -> Vote:
     return Vote(probability, names, np.where(by_lines, 0.0, probability_of(alarm)))
 
 
-def pooled_draws(draws: list[Tested]) -> Tested:
-    """Several draws of one corpus as one, record after record."""
+def pool(parts: list[Tested]) -> Tested:
+    """Several draws of one corpus, or several parts of it, as one, record after record."""
     import pandas
 
-    said = zip(*(tested.verdicts for tested in draws), strict=True)
+    said = zip(*(tested.verdicts for tested in parts), strict=True)
     return replace(
-        draws[0],
-        chosen=replace(draws[0].chosen, labels=pandas.concat([tested.chosen.labels for tested in draws])),
-        facts=tuple(of_record for tested in draws for of_record in tested.facts),
+        parts[0],
+        chosen=replace(parts[0].chosen, labels=pandas.concat([tested.chosen.labels for tested in parts])),
+        facts=tuple(of_record for tested in parts for of_record in tested.facts),
         verdicts=tuple(replace(of_one[0], **_joined_arrays(of_one)) for of_one in said),
-        **_joined_arrays(draws),
+        **_joined_arrays(parts),
     )
 
 

@@ -2,6 +2,7 @@
 
 import json
 
+import make_crossfitted
 import pytest
 from marked_tables import ROOT
 
@@ -31,6 +32,7 @@ def reference_table(long_repeated):
         ("docs/pipeline.md", "costs", costs.page),
         ("docs/pipeline.md", "judging", judging.page),
         ("docs/pipeline.md", "pipeline", pipeline.page),
+        ("docs/transfer.md", "crossfitted", make_crossfitted.table),
         ("README.md", "reference_scenes", lambda report: reference_table(report["scenes"])),
     ],
 )

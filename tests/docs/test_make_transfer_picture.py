@@ -44,7 +44,8 @@ def figure():
                     "forest": [{"bearings": n, "value": 0.8, "low": 0.7, "high": 0.9} for n in (10, 20)]
                 },
                 "importances": {"forest": {"crest_factor": 0.2}},
-            }
+            },
+            _models(0.1),
         )
 
 

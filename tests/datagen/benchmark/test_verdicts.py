@@ -16,7 +16,7 @@ from datagen.benchmark.results import CorpusResults
 from datagen.benchmark.rows import Rows
 from datagen.benchmark.summary import summarise
 from datagen.benchmark.training import Model
-from datagen.benchmark.verdicts import REJECTED, Judges, pooled_draws, vote
+from datagen.benchmark.verdicts import REJECTED, Judges, pool, vote
 from datagen.commands.classify import print_results, score_line
 from datagen.commands.tables import verdict_table
 from labels.classifier.alarm import CLEARNESS, Alarm
@@ -89,7 +89,7 @@ def test_ten_draws_of_the_same_noise_tell_no_more_than_one():
     generator = np.random.default_rng(2)
     probability = generator.dirichlet([1.0, 2.0, 2.0, 0.5, 0.5], len(locations))
     one = judged(locations, probability)
-    once, pooled = (summarise(found).models["said"] for found in (one, pooled_draws([one] * 10)))
+    once, pooled = (summarise(found).models["said"] for found in (one, pool([one] * 10)))
     for name in ("faults_balanced_accuracy", "race_accuracy"):
         assert astuple(getattr(pooled, name)) == pytest.approx(astuple(getattr(once, name)))
         differences = [astuple(getattr(scores.minus_rule, name))[1:] for scores in (pooled, once)]
@@ -104,7 +104,7 @@ def test_ten_draws_of_the_same_noise_tell_no_more_than_one():
 def test_pooled_draws_keep_what_each_draw_says_of_every_record():
     one = judged(["none", "outer"], np.array([[0.9, 0.1, 0, 0, 0], [0.2, 0.8, 0, 0, 0]]))
     other = replace(one, facts=(RecordFacts(in_mains=("inner",), glitches=3), RecordFacts(in_mains=("outer",))))
-    pooled, draws = pooled_draws([one, other]), (one, other)
+    pooled, draws = pool([one, other]), (one, other)
     for name in ("truth", "classes", "facts"):
         assert list(getattr(pooled, name)) == [value for draw in draws for value in getattr(draw, name)], name
     for said, of_draws in zip(pooled.verdicts, zip(*(draw.verdicts for draw in draws), strict=True), strict=True):
@@ -143,7 +143,7 @@ def test_spalls_of_known_race_and_unknown_size_have_a_reliability_with_an_interv
 def test_false_alarms_have_the_exact_interval_however_often_their_noise_was_drawn():
     spall = np.where(np.arange(12) < 1, 0.9, 0.1)
     one = judged(["none"] * 10 + ["outer"] * 2, np.column_stack([1 - spall, spall, *np.zeros((3, 12))]))
-    once, pooled = (summarise(found).models["said"] for found in (one, pooled_draws([one] * 4)))
+    once, pooled = (summarise(found).models["said"] for found in (one, pool([one] * 4)))
     share = binomtest(1, 10).proportion_ci()
     assert (once.false_alarms, pooled.false_alarms) == (1, 4)
     for found in (once, pooled):

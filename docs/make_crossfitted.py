@@ -1,0 +1,90 @@
+"""How learners do on all machines of a corpus: python docs/make_crossfitted.py CORPUS
+
+Its virtual machines are divided into fifths, and each is judged by the rule and by learners of the other four. That is
+steadier than one split "test", whose machines may happen to be hard ones. The scores of all records together are kept
+in docs/crossfitted.json, and the table is written into docs/transfer.md.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from make_transfer import AUC, FAULTS, PAGE, RACE, calibration, counted, interval
+from marked_tables import write_marked
+
+from datagen.benchmark.chosen import ChosenRecords
+from datagen.benchmark.corpus_rows import read_rows
+from datagen.benchmark.plan import Benchmark
+from datagen.benchmark.results import CorpusScores
+from datagen.benchmark.summary import summarise
+from datagen.benchmark.training import train_models, train_rule, training_records, training_set
+from datagen.benchmark.verdicts import Judges, Tested, pool
+from datagen.corpus import Corpus
+from datagen.versions import in_words, measured_on
+
+FOLDS = 5
+FOUND = Path(__file__).with_name("crossfitted.json")
+
+
+def judged_by_others(folder: Path) -> list[Tested]:
+    """What is said of the records of every fifth of the machines by what learned from the others."""
+    benchmark = Benchmark(folder, (folder,))
+    labels = training_records(folder, False)
+    numbers = labels["record"].to_numpy(np.int64)
+    training = training_set(folder, labels, benchmark.training_reading(), 1)
+    found = read_rows(folder, numbers, benchmark.reading(), 1)
+    parts = []
+    for learned, judged in Corpus(folder).folds(FOLDS):
+        part = training.subset(np.isin(training.rows.record, learned))
+        judges = Judges(train_rule(part), train_models(part, "all"))
+        parts.append(judges.judge(ChosenRecords(folder, labels[np.isin(numbers, judged)], False), found))
+    return parts
+
+
+def report(scores: CorpusScores) -> dict[str, Any]:
+    """What is kept."""
+    named = replace(scores, corpus=Path(scores.corpus).name)
+    return {"made_with": measured_on(), "folds": FOLDS, "scores": named.to_dict()}
+
+
+def table(kept: dict[str, Any]) -> str:
+    """One row a model, and what it was made of."""
+    scores = kept["scores"]
+    lines = [
+        "| model | outer and inner | minus rule | race alone | AUC | false alarms | of healthy bearings "
+        "| calibration error |",
+        "|---" * 8 + "|",
+    ]
+    for name, said in scores["models"].items():
+        cells = (
+            name,
+            interval(said[FAULTS]),
+            interval(said["minus_rule"][FAULTS]) if "minus_rule" in said else "",
+            interval(said[RACE]),
+            interval(said[AUC]),
+            counted(said["false_alarms"], said["healthy"]),
+            f"{said['alarming_bearings']} of {said['healthy_bearings']}",
+            calibration(said),
+        )
+        lines.append("| " + " | ".join(cells) + " |")
+    made = in_words(kept["made_with"])
+    made_of = f"{scores['records']} records of `{scores['corpus']}`, its machines in {kept['folds']} parts."
+    return "\n".join([*lines, "", f"{made_of} Measured on {made}."])
+
+
+def main(folder: Path) -> None:
+    """Judge, keep the scores and write the table."""
+    kept = report(summarise(pool(judged_by_others(folder))))
+    FOUND.write_text(json.dumps(kept, indent=1) + "\n", encoding="utf-8")
+    write_marked(PAGE, "crossfitted", __file__, table(kept))
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("corpus", type=Path, metavar="CORPUS", help="simulated corpus, such as out/transfer")
+    main(parser.parse_args().corpus)

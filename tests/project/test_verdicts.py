@@ -36,12 +36,14 @@ def test_every_decimal_of_the_verdict_stands_in_a_table_of_the_page(page):
 
 
 # Ways to read a cell like "0.936 (0.886 to 0.980)", "7.4 (5.4–9.5)", "3.7 (1.6)" or "17 of 132 [0.077, 0.198]".
-ALL, FIRST, IN_BRACKETS, OF_132, OF_78 = r"[\d.]+", r"^[\d.]+", r"\(([\d.]+)\)", r"^\d+(?= of 132)", r"^\d+(?= of 78)"
+ALL, FIRST, IN_BRACKETS = r"[\d.]+", r"^[\d.]+", r"\(([\d.]+)\)"
+OF_132, OF_78, OF_640 = r"^\d+(?= of 132)", r"^\d+(?= of 78)", r"^\d+(?= of 640)"
 LEARNERS, FOUND = "(forest|logistic|boosting)", "(outer and inner, )?without odd ones"
 LEVELS, NOISY = "clean|20|10|5|0", "(20|10|5|0) dB"
 PAGES = {
     "scores": "transfer.md",
     "draws": "transfer.md",
+    "crossfitted": "transfer.md",
     "noise": "transfer.md",
     "size ladder": "size.md",
     "speeds": "charts/README.md",
@@ -73,6 +75,7 @@ CLAIMS = (
     Claim("without learning finds {} %", "scores", ("cwru_de12k", "rule"), FOUND, FIRST, 100.0),
     Claim("{} % with each draw", "draws", ("cwru_de12k", "rule"), FOUND, ALL, 100.0),
     Claim("({} to {} of the 132 in its split", "scores", ("transfer", LEARNERS), "false alarms", OF_132),
+    Claim("of other machines, {} to {} do (", "crossfitted", (LEARNERS,), "false alarms", OF_640),
     Claim("{} to {} of 78", "scores", ("corpus", LEARNERS), "false alarms", OF_78),
     Claim("{} to {} % of clean records", "size ladder", ("no estimate, load given",), "clean", FIRST),
     Claim("{} to {} % of noisy ones", "size ladder", ("no estimate, load given",), NOISY, FIRST),
@@ -115,6 +118,7 @@ VERDICTS = (
     transfer_verdict("The rule scores {} and", "scores", ("mfpt", "rule"), OF_ALL),
     transfer_verdict("and {}; the difference on `cwru_de12k`", "scores", ("cwru_de12k", "rule"), OF_ALL),
     transfer_verdict("the difference on `cwru_de12k` is {} [", "scores", ("cwru_de12k", LEARNERS), "minus rule"),
+    transfer_verdict("of other machines, {} to {} do.", "crossfitted", (LEARNERS,), "false alarms", OF_640),
     transfer_verdict("the forest scores {}, the rule", "scores", ("corpus", "forest"), OF_ALL),
     transfer_verdict("the rule {}; at −13 dB", "scores", ("corpus", "rule"), OF_ALL),
     transfer_verdict("on `cwru_de12k` it scores {},", NOISE_ADDED, ("cwru_de12k", "-13", "forest"), AT_THE_ALARM),

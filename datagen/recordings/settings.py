@@ -18,6 +18,7 @@ NonNegative = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
 # mm; the balls of bearings are not smaller, and a number below this is a length in m.
 Diameter = Annotated[float, Field(ge=0.1, le=1e5)]
 MOST_BALLS = 200
+VOLTS = 'volts of a sensor need a scale: unit = "g" and scale = 10 for 100 mV/g, 0.01 for mV'
 IN_WORDS = "none means healthy, unknown that nobody said"
 FOLLOWS = "it follows from location and extent and can be left out: location says what is damaged"
 Name = Annotated[str, Field(min_length=1, max_length=120)]
@@ -104,7 +105,7 @@ class RecordingSettings(Table):
     """Name of that one channel."""
     rate_hz: Annotated[float | FromVariable, number("rate_hz")] | None = None
     """Sampling rate, Hz; a .wav file says it itself."""
-    unit: Annotated[str, word(*UNITS)] | None = None
+    unit: Annotated[str, word(*UNITS, remark=VOLTS)] | None = None
     """Unit of the samples times `scale`."""
     scale: Annotated[float | FromVariable, number("scale")] | None = None
     """What the stored numbers are multiplied by; 1 if not given."""

@@ -38,6 +38,7 @@ SEVERAL = 1.5
 ONE_OF_THEM = 'a single number of it, as in "NAME[0]" or "NAME[0,2]"'
 MOST_OF_THEM = "finite numbers throughout, as missing_samples fills channels only; or a single number, as NAME[0]"
 FACTOR = "factor brings times to s: 1e-3 those in ms, 1e-6 those in µs, 1e-9 those in ns"
+ANOTHER_UNIT = "factor = … brings it to the unit of the setting, as 1000 a rate in kHz"
 TIMES = "times in s; of dates and hours of a clock the rate itself, a number"
 Span = tuple[Fraction, Fraction]
 WHOLE = (Fraction(0), Fraction(1))
@@ -189,7 +190,8 @@ class Source:
             value = self._mean(_within(found, span), said.variable, name) * said.factor
         if not in_range(name, value):
             problem = f"from the variable {said.variable}" + (", whose times are read as s" if said.times else "")
-            allowed = RANGES[name].allowed() + (f"; {FACTOR}" if said.times else "")
+            remark = FACTOR if said.times else ANOTHER_UNIT if said.factor == 1.0 else ""
+            allowed = "; ".join(filter(None, [RANGES[name].allowed(), remark]))
             raise BadInput(problem, str(self.path), name, value, allowed)
         return value
 

@@ -40,6 +40,8 @@ HELD = {
     'rate_hz = {variable = "sig"}': 'rate_hz = "sig": holds 400 numbers from',
     'rate_hz = {variable = "huge"}': "rate_hz = 1e+300: from the variable huge; allowed: a number from 100 to 1e+07",
     'rate_hz = {variable = "huge", factor = 1e300}': "rate_hz = inf: from the variable huge; allowed: a number",
+    'rate_hz = {variable = "khz"}': "rate_hz = 12.0: from the variable khz; allowed: a number from 100 to 1e+07; "
+    "factor = … brings it to the unit of the setting, as 1000 a rate in kHz",
     'load_n = {variable = "minus"}': "load_n = -3.0: from the variable minus; allowed: a number from 0 to 1e+07",
     'speed_rpm = {variable = "minus"}': "speed_rpm = -3.0: from the variable minus; allowed: a number from 0 to 1e+06",
     "scale = 1e308": "scale = 1e+308: the largest sample would be inf m/s²; allowed: samples up to 1e+09 m/s²",
@@ -67,7 +69,7 @@ def test_the_same_holds_for_a_number_that_the_file_holds_or_leads_to(
     setting: str, bring: Bring, mat: Mat, tmp_path: Path
 ) -> None:
     saw = np.tile([0.0, 0.0, 1.0, 1.0, 0.0], 80)  # 200 pulses a second
-    mat("a.mat", huge=1e300, minus=-3.0, saw=saw)
+    mat("a.mat", huge=1e300, khz=12.0, minus=-3.0, saw=saw)
     message = refusal(bring, with_setting(setting), tmp_path)
     assert f"a.mat: {HELD[setting]}" in message
 

@@ -13,7 +13,7 @@ from datagen.cards.vocabulary_table import vocabulary_table
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
 from datagen.files.atomic import write_results
-from datagen.files.places import OUT, require_folder
+from datagen.files.places import OUT, from_home, require_folder
 
 CARD, METADATA, VOCABULARY = "card.md", "croissant.json", "labels_bearing_datasets.csv"
 MOST_EXAMPLES = 6
@@ -35,12 +35,12 @@ def write_report(folder: str | Path, out: str | Path | None = None) -> Report:
     An earlier report there is written over; any other folder that is not empty is refused. Nothing is written before
     everything is drawn.
     """
-    folder = Path(folder)
+    folder = from_home(folder)
     if out is None:
         facts, out = corpus_facts(folder), folder / "report"  # what is no corpus is told as that
         _check_folder(out)
     else:
-        out = Path(out)
+        out = from_home(out)
         _check_folder(out)
         facts = corpus_facts(folder)
     if not facts.info.records:

@@ -12,7 +12,7 @@ from datagen.corpus_files.manifest import read_manifest, shard_entry
 from datagen.counts import counted
 from datagen.errors import BadInput
 from datagen.files.atomic import is_held
-from datagen.files.places import FAILURES
+from datagen.files.places import FAILURES, from_home
 from datagen.inspection.corpus_parts import CorpusParts, read_parts
 from datagen.inspection.findings import Findings, of_file
 from datagen.inspection.manifest_check import differences
@@ -54,7 +54,7 @@ def check_corpus(folder: str | Path, remake: int = 0) -> Verdict:
 
     Raises BadInput if the folder holds no corpus, or one of another format.
     """
-    folder = Path(folder)
+    folder = from_home(folder)
     manifest = read_manifest(folder)
     if manifest.identity.format_hash != format_hash():
         raise BadInput(f"written in another version of the format than this program's ({FORMAT})", str(folder))

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from datagen.corpus import Corpus
 from datagen.corpus_files.manifest import ShardEntry
 from datagen.counts import counted
+from datagen.files.places import from_home
 from datagen.files.time_stamps import HDF5_SIGNATURE
 from datagen.inspection.asked_for import asked_of
 from datagen.scenarios.redraw import Refused
@@ -94,7 +95,7 @@ class Info:
 
 def corpus_info(folder: str | Path) -> Info:
     """The facts of the corpus in `folder`; raises BadInput if there is none."""
-    folder = Path(folder)
+    folder = from_home(folder)
     corpus = Corpus(folder)
     manifest, table = corpus.manifest, corpus.labels
     signal_seconds = float(table["duration_s"].sum())

@@ -356,3 +356,13 @@ def test_a_record_that_a_later_run_has_moved_is_not_taken_for_another(tiny: Reci
         with pytest.raises(BadInput, match="open it again"):
             read(5)
     assert np.array_equal(Corpus(tmp_path / "out").waveform(5), before)
+
+
+def test_a_folder_may_be_named_from_home(tiny_corpus: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("HOME", str(tiny_corpus.parent))
+    folder = f"~/{tiny_corpus.name}"
+    assert len(Corpus(folder)) == corpus_info(folder).records == 14
+    assert check_corpus(folder).sound
+    monkeypatch.setenv("HOME", str(tmp_path))
+    write_report(tiny_corpus, "~/card")
+    assert (tmp_path / "card" / "card.md").is_file()

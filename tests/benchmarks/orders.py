@@ -53,7 +53,7 @@ def measure(scene: Scene, method: str, exact: Array) -> dict[str, object]:
             errors[substeps] = relative_error(response(scene, method, substeps), exact)
         except SimulationFailed:
             continue  # a step that is not stable is refused
-    return {"errors": errors} | line_through(errors)
+    return {"errors": errors, **line_through(errors)}
 
 
 def line_through(errors: dict[int, float]) -> dict[str, float]:

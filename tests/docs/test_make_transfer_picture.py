@@ -10,8 +10,8 @@ SCORED = {"rule": 0.5, "forest": 0.75}
 
 
 def _models(shift):
-    curve = {"predicted": [0.2, 0.9], "observed": [0.1, 1.0]}
-    point = {"at": 1.0, "accuracy": 0.4, "low": 0.3, "high": 0.5}
+    curve = {"predicted": [0.2, 0.9], "observed": [0.1, 0.8 + shift]}
+    point = {"at": 1.0, "accuracy": 0.4 + shift, "low": 0.3, "high": 0.6}
     found = {}
     for name in MODELS:
         value = SCORED[name] + shift
@@ -74,3 +74,11 @@ def test_levels_of_noise_stand_in_order_and_none_added_last(figure):
 def test_a_rule_without_probabilities_has_no_reliability(figure):
     panel = next(axes for axes in figure.axes if axes.get_title(loc="left") == "reliability")
     assert [text.get_text() for text in panel.get_legend().get_texts()] == ["forest"]
+
+
+def test_what_depends_on_snr_speed_size_and_probability_is_of_the_machines_judged_by_learners_of_others(figure):
+    panels = {axes.get_title(loc="left"): axes for axes in figure.axes}
+    for name in ("SNR", "speed", "size"):
+        heights = [line.get_ydata()[0] for line in panels[f"faults, by {name}"].lines]
+        assert heights == pytest.approx([0.5, 0.5]), name  # of both models; of those of the report 0.4
+    assert panels["reliability"].lines[-1].get_ydata() == pytest.approx([0.1, 0.9])

@@ -49,7 +49,7 @@ class Prediction:
     """What is known about a record, and the answer of each of the `models`.
 
     `truth` is its location, `rejected` why it was rejected ("" if it was not). So many jumps were `levelled`, glitches
-    drawn over (`despiked`) and `shocks_cut`. `in_mains` names the races whose faults hide among multiples of the mains
+    replaced (`despiked`) and `shocks_cut`. `in_mains` names the races whose faults hide among multiples of the mains
     ("", "outer", "inner" or "outer inner"), `found_speed_rpm` the shaft speed at which lines were looked for (None
     without features).
     """

@@ -58,9 +58,9 @@ class Row:
 class RecordFacts:
     """What reading one record showed, beside its rows.
 
-    `reason` says why it must not be classified, "" if it may be. So many `jumps` were levelled in it, `glitches` drawn
-    over and `shocks` cut; `in_mains` are the races whose faults hide among multiples of the mains. `found_rpm` is the
-    speed of the shaft that was found, rpm: the median over the rows without added noise, None without any. It is
+    `reason` says why it must not be classified, "" if it may be. So many `jumps` were levelled in it, `glitches`
+    replaced and `shocks` cut; `in_mains` are the races whose faults hide among multiples of the mains. `found_rpm` is
+    the speed of the shaft that was found, rpm: the median over the rows without added noise, None without any. It is
     `far_from_stated` if it lies at the edge of what is searched beside the stated speed.
     """
 

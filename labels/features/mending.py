@@ -13,8 +13,7 @@ from physics.arrays import Array
 
 @dataclass(frozen=True)
 class Mended:
-    """The `signal` (T,) of one axis, and how many `jumps` were levelled, `glitches` drawn over and `shocks` cut in
-    it."""
+    """The `signal` (T,) of one axis, and how many `jumps` were levelled, `glitches` replaced and `shocks` cut in it."""
 
     signal: Array
     jumps: int = 0

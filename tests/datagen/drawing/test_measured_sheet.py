@@ -150,3 +150,28 @@ def test_at_a_changing_speed_the_envelope_is_drawn_over_the_angle_of_the_shaft()
         title = next(text for text in panel.findobj(Text) if text.get_text() == "Squared envelope, by angle")
     assert legend is not None
     assert title.get_window_extent().x1 < legend.get_window_extent().x0
+
+
+def test_the_lines_marked_are_the_harmonics_of_the_stated_place_and_of_the_shaft() -> None:
+    with house_style():
+        figure = draw_measured_sheet(portrait())
+    axes = next(axes for axes in figure.axes if axes.get_title(loc="left").startswith("Squared"))
+    lines = {str(line.get_label()).split()[0]: np.asarray(line.get_xdata()) for line in axes.lines}
+    # A second, so lines 1 Hz apart: bursts at 90 Hz, and three turns of 25 Hz.
+    assert lines["BPFO"] == pytest.approx([90.0 * k for k in range(1, 7)], abs=1.5)
+    assert lines["shaft"] == pytest.approx([25.0 * k for k in range(1, 4)], abs=1.5)
+
+
+def test_the_close_up_and_its_spectrogram_are_in_milliseconds() -> None:
+    made = portrait()
+    with house_style():
+        figure = draw_measured_sheet(made)
+    close_up = next(axes for axes in figure.axes if axes.get_title(loc="left").startswith("Close-up"))
+    (line,) = close_up.lines
+    best = int(np.argmax(np.abs(np.asarray(line.get_ydata()))))
+    assert np.asarray(line.get_xdata())[best] == pytest.approx(700.1, abs=0.1)  # a quarter of a turn of 2500 Hz behind
+    assert close_up.get_xlabel() == "time (ms)"
+
+
+def test_lines_of_balls_and_cages_are_their_own() -> None:
+    assert portrait(location="cage").expected_lines == ("FTF",)

@@ -11,8 +11,8 @@ import pytest
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from datagen.drawing.overview import WORTH_SHOWING, draw_overview
-from datagen.drawing.style import house_style
+from datagen.drawing.overview import SPLIT_COLOURS, WORTH_SHOWING, draw_overview
+from datagen.drawing.style import BLUE, SKY, VERMILLION, house_style
 
 
 def table(**columns: Any) -> pandas.DataFrame:
@@ -92,3 +92,50 @@ def test_numbers_along_a_distribution_do_not_run_into_each_other(ends: tuple[flo
         boxes = [label.get_window_extent() for label in panel(figure, "Mean slip").get_xticklabels()]
     assert len(boxes) > 2
     assert all(left.x1 < right.x0 for left, right in pairwise(boxes))
+
+
+def rgb(colour: str) -> tuple[float, ...]:
+    return tuple(int(colour[k : k + 2], 16) / 255.0 for k in (1, 3, 5))
+
+
+def bars(axes: Axes, colour: str) -> list[Any]:
+    """The bars of a panel that have this colour and are not empty."""
+    found = [bar for bar in axes.patches if bar.get_width() * bar.get_height() > 0.0]
+    return [bar for bar in found if bar.get_facecolor()[:3] == pytest.approx(rgb(colour))]
+
+
+def test_records_of_a_kind_lie_side_by_side_split_after_split() -> None:
+    axes = panel(drawn(table(split=["train", "train", "test", "test", "validation", "train"] * 2)), "Kinds")
+    ends = {
+        split: sorted((bar.get_x(), bar.get_x() + bar.get_width()) for bar in bars(axes, SPLIT_COLOURS[split]))
+        for split in ("train", "validation", "test")
+    }
+    # Of either kind six: healthy in train, test and validation by two; of line spalls four in train and two in test.
+    assert ends == {"train": [(0.0, 2.0), (0.0, 4.0)], "validation": [(2.0, 4.0)], "test": [(4.0, 6.0), (4.0, 6.0)]}
+    assert [text.get_text().strip() for text in axes.texts] == ["6", "6"]
+
+
+def test_few_values_are_bars_of_each_part_upon_each_other_in_its_colour() -> None:
+    speeds = [100.0, 100.0, 100.0, 100.0, 200.0, 100.0] * 2
+    axes = panel(drawn(table(speed_rpm=speeds)), "Speed")
+    heights = {colour: [(bar.get_y(), bar.get_height()) for bar in bars(axes, colour)] for colour in (SKY, BLUE)}
+    assert heights == {SKY: [(0.0, 4.0), (0.0, 2.0)], BLUE: [(4.0, 6.0)]}
+    assert axes.get_legend_handles_labels()[1] == ["none", "outer"]
+
+
+def test_inner_and_outer_races_keep_their_colours() -> None:
+    labels = table(location=["inner", "outer"] * 6, condition="line", speed_rpm=[100.0, 200.0] * 6)
+    axes = panel(drawn(labels), "Speed")
+    assert [bar.get_x() + 0.5 * bar.get_width() for bar in bars(axes, BLUE)] == pytest.approx([1.0])
+    assert [bar.get_x() + 0.5 * bar.get_width() for bar in bars(axes, VERMILLION)] == pytest.approx([0.0])
+
+
+@pytest.mark.parametrize("count", [2, 12])
+def test_depths_are_told_in_micrometres(count: int) -> None:
+    depths = np.linspace(1e-6, 12e-6, count)
+    labels = table(location="outer", condition="line", depth=np.resize(depths, 12))
+    axes = panel(drawn(labels), "Depth")
+    assert axes.get_xlabel() == "µm"
+    if count == 2:
+        assert words(axes) == ["1", "12"]
+    assert sum(bar.get_height() for bar in bars(axes, BLUE)) == 12.0

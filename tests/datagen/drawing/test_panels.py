@@ -1,0 +1,168 @@
+"""What is drawn where: each panel's lines, bars and colours are those of the quantities its labels name."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from datagen.drawing.frequency_panels import draw_spectrum
+from datagen.drawing.path_panels import draw_path, load_over_spall
+from datagen.drawing.sheet import draw_sheet
+from datagen.drawing.style import BLUE, GREEN, GREY, ORANGE, PALE, VERMILLION, house_style, with_panels
+from datagen.drawing.time_panels import draw_close_up, draw_passes, draw_spectrogram, draw_stiffness, draw_trace
+
+MS = 1e3
+
+
+def panel_of(draw, portrait):
+    """The panel that `draw` fills for a portrait."""
+    with house_style():
+        _, axes = with_panels(figsize=(6.0, 3.0))
+        draw(axes, portrait)
+    return axes
+
+
+def lines_by_name(axes):
+    return {line.get_label(): line for line in axes.lines}
+
+
+def test_the_record_and_its_close_up_are_those_of_the_y_axis_in_seconds_and_in_milliseconds(portrait):
+    drawn = portrait("line, outer")
+    part = drawn.window.part(drawn.time)
+    for draw, shown, scale in ((draw_trace, slice(None), 1.0), (draw_close_up, part, MS)):
+        lines = lines_by_name(panel_of(draw, drawn))
+        for name, colour, signal in (("with background", GREY, drawn.acceleration), ("clean", BLUE, drawn.clean)):
+            assert np.array_equal(lines[name].get_ydata(), signal[shown, 1])
+            assert lines[name].get_xdata() == pytest.approx(np.arange(signal.shape[0])[shown] * scale / drawn.rate)
+            assert lines[name].get_color() == colour
+
+
+def test_releases_and_regains_have_the_colours_of_their_names(portrait):
+    drawn = portrait("line, outer")
+    lines = panel_of(draw_close_up, drawn).lines
+    names = {line.get_color(): line.get_label() for line in reversed(lines)}
+    assert (names[VERMILLION], names[GREEN]) == ("release of a ball", "regain of contact")
+    for colour, times in ((VERMILLION, drawn.passes.release_time), (GREEN, drawn.passes.regain_time)):
+        marks = [line.get_xdata()[0] for line in lines if line.get_color() == colour]
+        inside = times[(times >= drawn.window[0]) & (times <= drawn.window[1])]
+        assert marks == pytest.approx(MS * inside, rel=1e-12)
+
+
+def test_a_bar_runs_from_entry_to_exit_of_each_pass_and_tells_whether_its_ball_is_loaded(portrait):
+    drawn = portrait("line, outer")
+    start, stop = drawn.window
+    shown = np.flatnonzero((drawn.passes.exit_time > start) & (drawn.passes.entry_time < stop))
+    loaded = drawn.passes.loaded.copy()
+    loaded[shown[shown != drawn.shown_pass][0]] = False  # another than the one that the close-up is about
+    table = replace(drawn.passes, loaded=loaded)
+    axes = panel_of(draw_passes, replace(drawn, passes=table))
+    assert shown.size == len(axes.patches) > 2
+    for k, bar, mark in zip(shown, axes.patches, axes.lines, strict=True):
+        assert bar.get_x() == pytest.approx(MS * table.entry_time[k])
+        assert bar.get_width() == pytest.approx(MS * (table.exit_time[k] - table.entry_time[k]))
+        assert bar.get_facecolor() == pytest.approx(_rgba(ORANGE if loaded[k] else PALE))
+        assert mark.get_xdata()[0] == pytest.approx(MS * table.deepest_time[k])
+    words = [text.get_text().strip() for text in axes.texts]
+    assert len(words) > 1
+    assert words == [f"ball {ball}" for ball in table.ball[shown]][: len(words)]
+
+
+def _rgba(colour):
+    return (*(int(colour[k : k + 2], 16) / 255.0 for k in (1, 3, 5)), 1.0)
+
+
+def test_the_stiffness_along_the_load_is_on_the_left_and_that_across_it_on_the_right(portrait):
+    drawn = portrait("line, outer")
+    axes = panel_of(draw_stiffness, replace(drawn, stiffness=np.array([[1e6], [2e6], [3e6]]) * np.ones(2001)))
+    left, right = axes.figure.axes
+    assert (left.get_ylabel(), right.get_ylabel()) == ("kyy (MN/m)", "kxx (MN/m)")
+    assert (left.lines[0].get_ydata()[0], right.lines[0].get_ydata()[0]) == pytest.approx((2.0, 1.0))
+
+
+@pytest.fixture
+def tones(portrait):
+    """A portrait whose clean y axis holds 3 kHz and, ten times weaker, 6 kHz; its x axis holds 1 kHz."""
+    drawn = portrait("line, outer")
+    turned = 2.0 * math.pi * drawn.time
+    along = np.sin(3000.0 * turned) + 0.1 * np.sin(6000.0 * turned)
+    return replace(drawn, clean=np.column_stack([np.sin(1000.0 * turned), along]))
+
+
+def test_the_spectrogram_is_that_of_the_y_axis_and_a_tenth_of_an_amplitude_is_twenty_decibels(tones):
+    mesh = panel_of(draw_spectrogram, tones).collections[0]
+    level, kilohertz = np.asarray(mesh.get_array()), mesh.get_coordinates()[:-1, 0, 1]
+    middle = level[:, level.shape[1] // 2]
+    near = {line: middle[np.abs(kilohertz - line) < 0.3].max() for line in (1.0, 3.0, 6.0)}
+    assert near[3.0] == pytest.approx(0.0, abs=0.2)
+    assert near[6.0] == pytest.approx(-20.0, abs=0.3)  # a window between two bins of its own
+    assert near[1.0] < -50.0  # beside the line of 3 kHz
+
+
+def test_a_tone_stands_at_its_frequency_and_amplitude_and_the_band_at_its_edges(tones):
+    with house_style():
+        _, axes = with_panels(figsize=(6.0, 3.0))
+        draw_spectrum(axes, 2.0 * tones.clean[:, 1], tones.rate, (5000.0, 7000.0))
+    line, band = axes.lines[0], axes.patches[0]
+    best = np.argmax(line.get_ydata())
+    assert (line.get_xdata()[best], line.get_ydata()[best]) == pytest.approx((3.0, 2.0), rel=1e-6)  # on a bin
+    assert (band.get_x(), band.get_x() + band.get_width()) == pytest.approx((5.0, 7.0))
+
+
+def test_the_spectrum_of_a_sheet_and_that_of_its_background_are_of_the_y_axis(tones):
+    along, none = tones.clean[:, 1], np.zeros(tones.time.size)
+    sheet = {
+        "acceleration": np.column_stack([none, along]), "sensor": np.column_stack([none, along]),
+        "background": np.column_stack([none, 0.5 * along]),
+    }  # fmt: skip
+    with house_style():
+        figure = draw_sheet(replace(tones, **sheet))
+    axes = next(axes for axes in figure.axes if axes.get_title(loc="left").startswith("Amplitude"))
+    assert [line.get_ydata().max() for line in axes.lines] == pytest.approx([1.0, 0.5], rel=1e-6)
+
+
+def test_the_shafts_frequency_is_the_first_order_on_top_of_the_envelope_spectrum(portrait):
+    drawn = portrait("line, outer")
+    with house_style():
+        figure = draw_sheet(drawn)
+        figure.draw_without_rendering()
+    axes = next(axes for axes in figure.axes if axes.get_title(loc="left").startswith("Squared"))
+    (orders,) = axes.child_axes
+    assert np.array(orders.get_xlim()) == pytest.approx(np.array(axes.get_xlim()) / 7.0)  # the shaft turns at 420 rpm
+
+
+def test_the_path_is_as_deep_as_the_spall_in_micrometres_between_its_edges(portrait):
+    axes = panel_of(draw_path, portrait("line, outer"))
+    path = axes.lines[0]
+    middle = np.argmin(np.abs(path.get_xdata()))
+    assert path.get_ydata()[middle] == pytest.approx(12.0, rel=1e-3)
+    edges = sorted(line.get_xdata()[0] for line in axes.lines if len(line.get_xdata()) == 2)
+    assert edges == pytest.approx([-1.0, 1.0])  # half of 2 degrees to each side
+    outside = np.abs(path.get_xdata()) > 1.001
+    assert outside.any()
+    assert not path.get_ydata()[outside].any()
+
+
+def test_the_waves_of_each_race_are_drawn_with_their_phase(portrait):
+    drawn = portrait("healthy but wavy")
+    waves = drawn.scene.imperfections.waviness
+    turned = tuple(replace(wave, phase=phase) for wave, phase in zip(waves, (0.4, 1.1), strict=True))
+    scene = replace(drawn.scene, imperfections=replace(drawn.scene.imperfections, waviness=turned))
+    lines = lines_by_name(panel_of(draw_path, replace(drawn, scene=scene)))
+    for name, height, order, phase in (("outer race", 1.0, 9, 0.4), ("inner race", 2.0, 5, 1.1)):
+        arc = np.radians(lines[name].get_xdata())
+        assert lines[name].get_ydata() == pytest.approx(height * np.cos(order * arc + phase), abs=1e-9)
+
+
+@pytest.mark.parametrize("name", ["line, outer", "line, inner, deep gap", "extended, outer"])
+def test_a_ball_enters_a_spall_at_the_edge_that_its_pass_says(name, portrait):
+    drawn = portrait(name)
+    k, spall = drawn.shown_pass, drawn.shown_spall
+    arc, _ = load_over_spall(drawn, spall, k)
+    table = drawn.passes
+    margin = 0.35 * (table.exit_time[k] - table.entry_time[k])
+    time = np.linspace(
+        max(table.entry_time[k] - margin, 0.0), min(table.exit_time[k] + margin, drawn.duration), arc.size
+    )
+    passed = np.interp([table.entry_time[k], table.exit_time[k]], time, arc)
+    assert passed == pytest.approx([-0.5 * spall.extent, 0.5 * spall.extent], rel=1e-3)

@@ -89,6 +89,20 @@ def test_every_file_of_a_report_is_written_and_every_picture_of_the_card_is_ther
     assert "not stated" in text
 
 
+def test_the_card_tells_ranges_from_the_smallest_to_the_largest_and_steps_in_microseconds(
+    tiny_corpus: Path, report: Report
+) -> None:
+    lines, table = (Path(report.folder) / CARD).read_text().splitlines(), Corpus(tiny_corpus).labels
+    (row,) = (line for line in lines if line.startswith("| `speed_rpm` |") and " rpm " in line)
+    cells = [cell.strip() for cell in row.split("|")[1:-1]]
+    known = table["speed_rpm"]
+    assert known.median() < known.max()
+    assert [float(cell) for cell in cells[2:5]] == pytest.approx([known.min(), known.median(), known.max()], rel=1e-4)
+    (row,) = (line for line in lines if line.startswith(f"| {table['model'][0]} |"))
+    ends = [1e6 * table["step"].min(), 1e6 * table["step"].max()]
+    assert row.split("|")[4].strip() == " to ".join(f"{end:.3g}" + " µs" for end in ends)
+
+
 def test_the_recipe_in_the_card_makes_the_same_corpus(tiny_corpus: Path, tiny: Recipe) -> None:
     text = origin_text(Corpus(tiny_corpus).manifest)
     assert parse_recipe(tomllib.loads(text), Path("card")).hash == tiny.hash
@@ -108,7 +122,7 @@ def test_toml_keeps_zeros_false_and_empty_texts() -> None:
     assert tomllib.loads(toml_text(data)) == data
 
 
-def test_croissant_metadata_describe_the_index_column_by_column(tiny_corpus: Path) -> None:
+def test_croissant_metadata_describe_the_index_column_by_column(tiny_corpus: Path, tiny: Recipe) -> None:
     document = json.loads(croissant_text(tiny_corpus, corpus_facts(tiny_corpus), tiny_corpus))
     assert document["@type"] == "sc:Dataset"
     index = next(entry for entry in document["distribution"] if entry["@type"] == "cr:FileObject")
@@ -118,6 +132,11 @@ def test_croissant_metadata_describe_the_index_column_by_column(tiny_corpus: Pat
     assert fields == content.decode().splitlines()[0].split(",")
     assert set(LABEL_COLUMNS) < set(fields)
     assert "license" not in document
+    assert tiny.hash.startswith(document["version"])
+    assert len(document["version"]) >= 16
+    kinds = {field["name"]: field["dataType"] for field in document["recordSet"][0]["field"]}
+    told = [kinds[name] for name in ("condition", "record", "speed_rpm", "shard", "position")]
+    assert told == ["sc:Text", "sc:Integer", "sc:Float", "sc:Text", "sc:Integer"]
 
 
 def files_of(folder: Path) -> tuple[Path, set[Path]]:
@@ -183,6 +202,7 @@ def test_an_imported_corpus_has_a_card_with_its_terms_and_sources(measured: Path
     assert "asked for" not in text
     document = json.loads((measured / "report" / METADATA).read_text())
     assert (document["license"], document["citeAs"]) == ("CC BY 4.0", "A. Nybody,\n2020")
+    assert document["url"] == "https://example.org/two"
     rows = list(csv.DictReader((measured / "report" / VOCABULARY).read_text().splitlines()))
     assert [row["signal_id"] for row in rows] == ["bad b_y", "good a_y"]
     assert [row["fault_type"] for row in rows] == ["outer", "normal"]

@@ -207,6 +207,7 @@ def test_the_outer_rings_motion_is_kept_on_request_at_the_raised_rate(reference_
         (25600.0, 12000.0, 7),  # 168 kHz: 6.6 times
         (25600.0, 500.0, 3),  # this rate holds the machine's fastest mode
         (6400.0, 500.0, 17),  # and this does not: ten samples of it, 104 kHz, 16.3 times
+        (17580.0, 500.0, 6),  # nor does this: its half is 8.79 kHz, and ten samples are 5.9 times
     ],
 )
 def test_the_rate_is_raised_for_machine_and_sensor_path(reference_scene, rate, path, factor):

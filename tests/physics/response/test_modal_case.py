@@ -8,6 +8,7 @@ import pytest
 
 from physics.cage import CagePath
 from physics.imperfections import Imperfections, Waviness
+from physics.outcome import Outcome, SimulationFailed
 from physics.response.goal import rms_distance, steady
 from physics.response.modal_case import March, case_of, resting
 from physics.statics.stiffness import stiffness_trace
@@ -28,6 +29,13 @@ def test_a_march_gone_on_with_is_the_march_made_at_once(case):
     march.go_on(steady(case, SAMPLES // 2, 1e-3, SIZE))
     in_parts = march.go_on(steady(case, SAMPLES, 1e-3, SIZE)).acceleration
     assert np.abs(in_parts - at_once).max() < 0.01 * np.abs(at_once).max()
+
+
+def test_a_march_that_stops_being_finite_is_refused(case):
+    lost = replace(case, start=np.where(np.arange(12) == 7, math.nan, case.start))
+    with pytest.raises(SimulationFailed, match="stopped being finite") as failure:
+        March(lost, SAMPLES).go_on(steady(lost, SAMPLES, 1e-3, SIZE))
+    assert failure.value.outcome is Outcome.NOT_FINITE
 
 
 @pytest.mark.parametrize("periods", [63, 64, 126])

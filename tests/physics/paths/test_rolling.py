@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from measures import hanging
 from scipy.interpolate import CubicSpline
 
-from physics.paths.corners import branches
+from physics.paths.corners import RolledPath, branches, corners_of
 from physics.paths.held_ball import Ball
 from physics.paths.path_nodes import bumpy_branches
 from physics.paths.rolling import roll
@@ -258,6 +258,41 @@ def test_a_bump_that_holds_the_ball_over_less_than_a_step_is_not_passed_over(rac
     arcs = middle + 0.5 * step * np.linspace(-1.0, 1.0, 41)
     clear = closest(surface, race, arcs, np.interp(arcs, found.arc, found.drop), half)
     np.testing.assert_allclose(clear, BALL, rtol=0, atol=2e-9)  # chords of 5 µm, points of the race 0.2 µm apart
+
+
+@RACES
+def test_of_two_crests_the_higher_one_holds_the_ball_though_points_of_the_surface_miss_its_top(race):
+    half, ball = 4.0 * HALF, ball_on(race)  # so that steps are no shorter than asked
+    steps = math.ceil(2.0 * half / STEP)
+    step = 2.0 * half / steps
+    node = -half + step * (steps // 2)
+    # One crest on a point of the surface, the other midway between two, which show its 1 µm as 15 nm lower.
+    near, far, width = node - 2.0 * step, node + 2.125 * step, 5e-6 / RACE[race]
+
+    def surface(arc):
+        return 20e-6 - 1e-6 * np.exp(-(((arc - near) / width) ** 2)) - 1.006e-6 * np.exp(-(((arc - far) / width) ** 2))
+
+    path = roll(sloped(surface), (-half, half), ball, STEP).path
+    at = np.argmin(np.abs(path.arc - node))
+    assert path.arc[at] == pytest.approx(node, abs=1e-12)
+    on_top = [ball.drop(surface(np.array([crest])), np.array([crest - node]))[0] for crest in (near, far)]
+    assert on_top[1] < on_top[0] - 2e-9
+    # It touches a little beside the top, where that is as steep as the ball: 0.1 nm higher.
+    assert on_top[1] - 2e-10 < path.drop[at] <= on_top[1]
+
+
+@pytest.mark.parametrize("higher", [True, False])
+def test_two_branches_meet_in_a_corner_where_the_higher_one_holds_and_nowhere_else(higher):
+    """The drop is the less of two lines, and turns upwards where they cross; where it is the larger one it is none of a
+    ball that rolls, whatever the place of contact does."""
+    arc = np.arange(8.0)
+    left, right = 0.2 * arc, 0.86 - 0.1 * (arc - 2.6) - 0.34  # they cross at 2.6, where both are 0.52
+    on_left = (left < right) == higher
+    slope = np.where(on_left, 0.2, -0.1)
+    path = RolledPath(arc, np.where(on_left, left, right), slope, arc + np.where(on_left, 0.0, 10.0))
+    corners = corners_of(path)
+    assert path.arc[corners.cells] + corners.share == pytest.approx([2.6] if higher else [], abs=1e-9)
+    assert branches(path).edges == pytest.approx([0.0, 2.6, 7.0] if higher else [0.0, 7.0], abs=1e-9)
 
 
 @RACES

@@ -4,6 +4,7 @@ import csv
 import hashlib
 import json
 import tomllib
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -15,8 +16,8 @@ import xarray
 from command_line import run
 
 from datagen.cards.corpus_report import CARD, METADATA, VOCABULARY, Report, write_report
-from datagen.cards.croissant import croissant_text
-from datagen.cards.facts import corpus_facts, solved
+from datagen.cards.croissant import croissant_text, unstated
+from datagen.cards.facts import Terms, corpus_facts, solved
 from datagen.cards.origin_text import origin_text
 from datagen.cards.toml_text import toml_text
 from datagen.cards.vocabulary_table import vocabulary_table
@@ -162,6 +163,13 @@ def test_what_nobody_stated_for_the_metadata_is_said(measured: Path, tiny_corpus
     ):
         done = run("report", corpus, "--out", tmp_path / corpus.name)
         assert f"croissant.json lacks: {missing}; add them" in done.stdout
+
+
+def test_of_licence_and_address_the_one_that_nobody_stated_is_lacking(tiny_corpus: Path) -> None:
+    facts = corpus_facts(tiny_corpus)
+    licensed, placed = (replace(facts, terms=Terms(*terms)) for terms in (("CC0", "", ""), ("", "", "https://a.org")))
+    assert unstated(licensed) == ("url", "creator", "datePublished")
+    assert unstated(placed) == ("license", "creator", "datePublished")
 
 
 def test_labels_in_the_common_vocabulary_have_a_row_a_signal(tiny_corpus: Path) -> None:

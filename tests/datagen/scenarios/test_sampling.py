@@ -244,6 +244,24 @@ def test_fixing_a_setting_that_was_drawn_moves_no_other() -> None:
     assert drawn.operation.shaft_speed != fixed.operation.shaft_speed
 
 
+def test_a_machine_that_is_drawn_again_keeps_its_split() -> None:
+    """Otherwise machines that are often impossible would be rarer in one split than in another."""
+    settings: dict[str, Any] = {"records": 24, "records_per_machine": 1}
+    often = recipe_of(HEALTHY | settings | {"machine": {"rig": "gearbox", "balls": {"choice": [12, 40]}}})
+    never = recipe_of(HEALTHY | settings | {"machine": {"rig": "gearbox", "balls": 12}})
+    drawn = [draw_scenario(often, record) for record in range(24)]
+    assert sum(scenario.seeds.machine_attempt > 0 for scenario in drawn) > 6  # 40 balls do not fit
+    assert [scenario.split for scenario in drawn] == [draw_scenario(never, record).split for record in range(24)]
+    assert len({scenario.split for scenario in drawn}) > 1
+
+
+def test_that_the_load_is_carried_is_asked_where_the_simulation_begins(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[float] = []
+    monkeypatch.setattr("datagen.scenarios.sampling.require_equilibrium", lambda scene, start: asked.append(start))
+    draw_scenario(recipe_of(HEALTHY, signal={"rate_hz": 65536, "duration_s": 0.1, "settle_s": 0.25}), 0)
+    assert asked == [-0.25]
+
+
 def test_splits_are_drawn_by_machine_in_the_stated_shares() -> None:
     part = HEALTHY | {"records": 2000, "operation": {"slip_deviation": 0}}
     recipe = recipe_of(part, split={"train": 0.5, "validation": 0.3, "test": 0.2})

@@ -388,3 +388,55 @@ def test_contact_changes_alone_are_those_of_balls_whose_force_was_kept(name, ref
     assert changes.made.tolist() == touching[sample + 1, row, ball].tolist()
     assert np.array_equal(changes.initial, touching[0])
     assert changes.time.size > 10
+
+
+def over_long_tapers(scene):
+    """The scene without slip, its spall with tapers over which a ball sinks and rises for a while."""
+    spall = dataclasses.replace(scene.spalls[0], extent=0.05, depth=60e-6, entry_taper=0.02, exit_taper=0.02)
+    return dataclasses.replace(scene, spalls=(spall,))
+
+
+@pytest.mark.parametrize("sign", [-1.0, 1.0], ids=["entry", "exit"])
+def test_a_record_that_begins_while_a_ball_sinks_or_rises_has_the_edges_of_a_longer_one(sign, reference_scene):
+    scene = over_long_tapers(reference_scene("G1", 0.2))
+    edges = edges_of(scene)
+    k = np.flatnonzero(edges.unloads & (sign * edges.change > 0.0))[1]
+    for share in (-0.25, 0.25):
+        begins = edges.time[k] + share * edges.ramp[k]
+        left = scene.duration - begins
+        cage = dataclasses.replace(scene.cage, start_angle=float(scene.cage.angle(begins)), duration=left)
+        later, seen = edges_of(dataclasses.replace(scene, cage=cage)), edges.time >= begins
+        assert later.time == pytest.approx(edges.time[seen] - begins, abs=1e-9)
+        assert later.change == pytest.approx(edges.change[seen], rel=1e-6)
+
+
+def test_no_change_of_contact_lies_outside_the_record(reference_scene):
+    scene = over_long_tapers(reference_scene("G1", 0.2))
+    edges = edges_of(scene)
+    k = np.flatnonzero(edges.unloads & (edges.change < 0.0))[1]
+    # A ball is let go of half a ramp behind the middle of the step of its force: here the record ends between them.
+    for share, more in ((0.4, 0), (0.6, 1)):
+        cage = dataclasses.replace(scene.cage, duration=float(edges.time[k] + share * edges.ramp[k]))
+        changes = impulse_response(dataclasses.replace(scene, cage=cage), RATE).changes
+        assert changes.time.max() < cage.duration
+        before = edges.unloads & (edges.time - 0.5 * np.sign(edges.change) * edges.ramp >= 0.0)
+        assert changes.time.size == np.count_nonzero(before[:k]) + more
+
+
+def test_modes_above_half_the_rate_are_no_part_of_the_impulse_train(reference_scene):
+    scene = reference_scene("G1", 0.2)
+    fastest = coupled_resonator_frequency(scene.rig, rated_matrices(scene.rig)[0])
+    assert RATE / 8.0 < fastest < RATE / 4.0  # 10.5 kHz, so that it would fold to 5.8 kHz
+    all_modes, below = (impulse_response(scene, rate).acceleration[:, 1] for rate in (RATE, RATE / 4.0))
+    missing = np.abs(np.fft.rfft(all_modes[::4] - below))
+    frequency = np.fft.rfftfreq(below.size, 4.0 / RATE)
+    assert frequency[np.argmax(missing)] == pytest.approx(RATE / 4.0 - fastest, rel=0.02)
+    assert rms(all_modes[::4] - below) > 0.01 * rms(all_modes)
+
+
+def test_modes_that_creep_back_under_a_strong_film_are_left_out_of_the_impulse_train(reference_scene):
+    scene = reference_scene("G1", 0.1)
+    strong = dataclasses.replace(scene, rig=dataclasses.replace(scene.rig, film_damping=1e5))
+    acceleration = impulse_response(strong, RATE).acceleration
+    assert np.isfinite(acceleration).all()
+    assert acceleration.any()

@@ -215,7 +215,11 @@ def test_an_imported_corpus_has_a_card_with_its_terms_and_sources(measured: Path
     assert [row["signal_id"] for row in rows] == ["bad b_y", "good a_y"]
     assert [row["fault_type"] for row in rows] == ["outer", "normal"]
     assert [row["fault_origin"] for row in rows] == ["unknown", "none"]
-    assert "speed_rpm" not in rows[0]
+    assert [(row["fault_severity"], row["fault_severity_level"]) for row in rows] == [
+        ("not graded", "1"),
+        ("none", "0"),
+    ]
+    assert not {"speed_rpm", "load", "load_unit"} & set(rows[0])  # not known of both
 
 
 def run_example(card: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> np.ndarray:

@@ -25,7 +25,6 @@ from datagen.benchmark.summary import summarise
 from datagen.benchmark.training import train_models, train_rule, training_records, training_set
 from datagen.benchmark.verdicts import Judges, Tested, pool
 from datagen.corpus import Corpus
-from datagen.versions import in_words, measured_on
 
 FOLDS = 5
 FOUND = Path(__file__).with_name("crossfitted.json")
@@ -46,10 +45,10 @@ def judged_by_others(folder: Path) -> list[Tested]:
     return parts
 
 
-def report(scores: CorpusScores) -> dict[str, Any]:
-    """What is kept."""
-    named = replace(scores, corpus=Path(scores.corpus).name)
-    return {"made_with": measured_on(), "folds": FOLDS, "scores": named.to_dict()}
+def report(folder: Path, scores: CorpusScores) -> dict[str, Any]:
+    """What is kept: the `scores`, and the hash of the physics that simulated the corpus in `folder`."""
+    physics = Corpus(folder).manifest.identity.model_hash
+    return {"physics": physics, "folds": FOLDS, "scores": replace(scores, corpus=folder.name).to_dict()}
 
 
 def table(kept: dict[str, Any]) -> str:
@@ -72,14 +71,13 @@ def table(kept: dict[str, Any]) -> str:
             calibration(said),
         )
         lines.append("| " + " | ".join(cells) + " |")
-    made = in_words(kept["made_with"])
-    made_of = f"{scores['records']} records of `{scores['corpus']}`, its machines in {kept['folds']} parts."
-    return "\n".join([*lines, "", f"{made_of} Measured on {made}."])
+    records = f"{scores['records']} records of `{scores['corpus']}`, simulated by physics {kept['physics']}"
+    return "\n".join([*lines, "", f"{records}; its machines in {kept['folds']} parts."])
 
 
 def main(folder: Path) -> None:
     """Judge, keep the scores and write the table."""
-    kept = report(summarise(pool(judged_by_others(folder))))
+    kept = report(folder, summarise(pool(judged_by_others(folder))))
     FOUND.write_text(json.dumps(kept, indent=1) + "\n", encoding="utf-8")
     write_marked(PAGE, "crossfitted", __file__, table(kept))
 

@@ -14,14 +14,12 @@ from physics.arrays import Array
 
 # Samples that foretell the next one, two for each resonance, and their largest share of all samples.
 ORDER, LARGEST_SHARE = 32, 0.1
-# Stretches of the recording from which it is learned how they do.
-MOST_STRETCHES = 20_000
-# Fewest of them for each sample that foretells.
-STRETCHES_A_SAMPLE = 4
+# Most stretches of a signal that the weights of these samples are learned from, and the fewest for each weight.
+MOST_STRETCHES, STRETCHES_A_WEIGHT = 20_000, 4
 
 
 def straight(values: Array, bad: NDArray[np.intp]) -> Array:
-    """The `values` (T,) with straight lines over the places `bad`: for pulses, of which `foretold` would add some."""
+    """The `values` (T,) with straight lines over the places `bad` (B,): for pulses, as `foretold` adds some."""
     good = np.delete(np.arange(values.size), bad)
     filled = values.copy()
     filled[bad] = np.interp(bad, good, values[good])
@@ -29,8 +27,8 @@ def straight(values: Array, bad: NDArray[np.intp]) -> Array:
 
 
 def foretold(values: Array, bad: NDArray[np.intp]) -> Array:
-    """The `values` (T,) with others at the places `bad`, by which the errors of foretelling every sample from those
-    before it, and from those after it, are smallest [Janssen et al. 1986, IEEE Trans. ASSP 34, 317].
+    """The `values` (T,) with others at the places `bad` (B,), by which the errors of foretelling every sample
+    from those before it, and from those after it, are smallest [Janssen et al. 1986, IEEE Trans. ASSP 34, 317].
 
     Straight lines where too few stretches without bad places are left to learn from.
     """
@@ -39,7 +37,7 @@ def foretold(values: Array, bad: NDArray[np.intp]) -> Array:
     whole = values - level
     whole[bad] = 0.0
     stretches = _sound_stretches(whole, bad, order)
-    if len(stretches) < STRETCHES_A_SAMPLE * order:
+    if len(stretches) < STRETCHES_A_WEIGHT * order:
         return straight(values, bad)
     forwards = _error_weights(stretches)
     both = [(weights, _of_missing(weights, bad, values.size)) for weights in (forwards, forwards[::-1])]
@@ -50,7 +48,7 @@ def foretold(values: Array, bad: NDArray[np.intp]) -> Array:
 
 
 def _sound_stretches(whole: Array, bad: NDArray[np.intp], order: int) -> Array:
-    """Some of the stretches of `order` + 1 samples in a row of which none is `bad` (stretches, order + 1)."""
+    """Some of the stretches of `order` + 1 samples in a row of which none is `bad` (B,): (stretches, order + 1)."""
     stretches = np.lib.stride_tricks.sliding_window_view(whole, order + 1)
     holes = np.zeros(whole.size + 1, dtype=np.int64)
     holes[bad + 1] = 1
@@ -68,7 +66,7 @@ def _error_weights(stretches: Array) -> Array:
 
 
 def _of_missing(weights: Array, bad: NDArray[np.intp], size: int) -> csc_array:
-    """Weight of each of the samples `bad` in the error of each stretch of `size` samples (stretches, bad)."""
+    """Weight (stretches, B) of each sample of `bad` (B,) in the error of each stretch of a signal of `size` samples."""
     stretches = size - weights.size + 1
     starts = bad[:, None] - np.arange(weights.size)
     column, tap = np.nonzero((starts >= 0) & (starts < stretches))

@@ -9,6 +9,7 @@ import numpy as np
 import pandas
 import pytest
 from matplotlib.axes import Axes
+from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
 from datagen.drawing.overview import SPLIT_COLOURS, WORTH_SHOWING, draw_overview
@@ -94,14 +95,10 @@ def test_numbers_along_a_distribution_do_not_run_into_each_other(ends: tuple[flo
     assert all(left.x1 < right.x0 for left, right in pairwise(boxes))
 
 
-def rgb(colour: str) -> tuple[float, ...]:
-    return tuple(int(colour[k : k + 2], 16) / 255.0 for k in (1, 3, 5))
-
-
 def bars(axes: Axes, colour: str) -> list[Any]:
     """The bars of a panel that have this colour and are not empty."""
     found = [bar for bar in axes.patches if bar.get_width() * bar.get_height() > 0.0]
-    return [bar for bar in found if bar.get_facecolor()[:3] == pytest.approx(rgb(colour))]
+    return [bar for bar in found if bar.get_facecolor()[:3] == pytest.approx(to_rgb(colour))]
 
 
 def test_records_of_a_kind_lie_side_by_side_split_after_split() -> None:

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from matplotlib.colors import to_rgba
 
 from datagen.drawing.frequency_panels import draw_spectrum
 from datagen.drawing.path_panels import draw_path, load_over_spall
@@ -61,15 +62,11 @@ def test_a_bar_runs_from_entry_to_exit_of_each_pass_and_tells_whether_its_ball_i
     for k, bar, mark in zip(shown, axes.patches, axes.lines, strict=True):
         assert bar.get_x() == pytest.approx(MS * table.entry_time[k])
         assert bar.get_width() == pytest.approx(MS * (table.exit_time[k] - table.entry_time[k]))
-        assert bar.get_facecolor() == pytest.approx(_rgba(ORANGE if loaded[k] else PALE))
+        assert bar.get_facecolor() == pytest.approx(to_rgba(ORANGE if loaded[k] else PALE))
         assert mark.get_xdata()[0] == pytest.approx(MS * table.deepest_time[k])
     words = [text.get_text().strip() for text in axes.texts]
     assert len(words) > 1
     assert words == [f"ball {ball}" for ball in table.ball[shown]][: len(words)]
-
-
-def _rgba(colour):
-    return (*(int(colour[k : k + 2], 16) / 255.0 for k in (1, 3, 5)), 1.0)
 
 
 def test_the_stiffness_along_the_load_is_on_the_left_and_that_across_it_on_the_right(portrait):

@@ -1,4 +1,4 @@
-"""docs/transfer.md explains what reports of `classify` hold."""
+"""docs/classify.md explains what reports of `classify` hold."""
 
 import re
 from pathlib import Path
@@ -9,8 +9,8 @@ pytestmark = pytest.mark.usefixtures("short_records_are_judged")
 
 
 def explained(head):
-    """The names in the first column of a table of docs/transfer.md that begins with this head."""
-    page = (Path(__file__).parents[3] / "docs" / "transfer.md").read_text(encoding="utf-8")
+    """The names in the first column of a table of docs/classify.md that begins with this head."""
+    page = (Path(__file__).parents[3] / "docs" / "classify.md").read_text(encoding="utf-8")
     rows = page.split(f"| {head} | meaning |\n")[1].split("\n\n")[0].splitlines()[1:]
     return [name for row in rows for name in re.findall(r"`([^`]+)`", row.split("|")[1])]
 

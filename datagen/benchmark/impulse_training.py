@@ -10,13 +10,14 @@ from pathlib import Path
 import numpy as np
 
 from datagen.benchmark.impulse_signal import Ingredients, draw_train
+from datagen.benchmark.plan import Benchmark
 from datagen.benchmark.reading_policy import Reading
 from datagen.benchmark.record_rows import feature_rows, signal_rows
 from datagen.benchmark.rows import joined
 from datagen.benchmark.training import FEWEST_BEARINGS, TrainingSet
 from datagen.errors import BadInput
 from datagen.processes import processes
-from datagen.progress import Count
+from datagen.progress import Count, Listener
 from labels.schema import HEALTHY, LOCATIONS
 
 NAME = "impulse-trains"
@@ -39,6 +40,23 @@ def ingredients_of(train: Path) -> Ingredients | None:
         allowed = ", ".join(f"{NAME}-without-{name}" for name in names)
         raise BadInput(field="--train", value=text, allowed=f"a folder, {NAME}, {allowed}")
     return Ingredients(**{left_out: False}) if left_out else Ingredients()
+
+
+class ImpulseTrains:
+    """Impulse trains of such `ingredients` as something to learn from, for a `benchmark`."""
+
+    machines = None
+    recipe = ""
+
+    def __init__(self, ingredients: Ingredients, benchmark: Benchmark) -> None:
+        self._ingredients, self._benchmark = ingredients, benchmark
+
+    def features(self, listener: Listener) -> TrainingSet:
+        """Their rows of features, made on the spot."""
+        listener.say("learning from plain impulse trains")
+        benchmark, count = self._benchmark, listener.counting("impulse trains")
+        reading, first = benchmark.training_reading(), benchmark.learning.first
+        return impulse_training(self._ingredients, reading, benchmark.workers, first, count)
 
 
 def impulse_training(

@@ -8,6 +8,8 @@ from typing import Any
 from datagen.judging.stated_speed import SPEED_ERROR
 
 FEATURES, WINDOWS = "features", "windows"
+# What `--train` calls the rows of features that come with the program.
+TRANSFER_ROWS = "transfer-rows"
 
 
 @dataclass(frozen=True)

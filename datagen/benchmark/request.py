@@ -10,7 +10,8 @@ from typing import Any
 
 from datagen.benchmark.answers import estimator_name
 from datagen.benchmark.impulse_training import NAME, ingredients_of
-from datagen.benchmark.options import FEATURES, WINDOWS, Learning, Options, Scoring
+from datagen.benchmark.kept_rows import is_kept
+from datagen.benchmark.options import FEATURES, TRANSFER_ROWS, WINDOWS, Learning, Options, Scoring
 from datagen.benchmark.plan import Benchmark
 from datagen.benchmark.predictions import FACTS
 from datagen.benchmark.trained import SAVE, TRAIN, is_saved
@@ -25,9 +26,12 @@ from datagen.judging.user_code import FIELD, load_user_code
 from labels.classifier.learners import LEARNERS
 
 INPUTS = (FEATURES, WINDOWS)
+WITH_A_CORPUS = "with a corpus to learn from as --train"
 LEAST_BANDWIDTH = 1000.0
 LEAST_NOISE_DB, MOST_NOISE_DB = -100.0, 100.0
-TRAINING = f"the folder of a simulated corpus, a file that {SAVE} wrote, {NAME} or {NAME}-without-INGREDIENT"
+TRAINING = (
+    f"the folder of a simulated corpus, a file that {SAVE} wrote, {TRANSFER_ROWS}, {NAME} or {NAME}-without-INGREDIENT"
+)
 ESTIMATOR_FORMS = (
     "module:Class, made without arguments, or module:object, with predict_proba or predict; or module:function"
 )
@@ -118,31 +122,40 @@ def _require_scoring(scoring: Scoring) -> None:
 def _require_use(
     train: Path, tests: tuple[Path, ...], learning: Learning, learning_curve: bool, save: Path | None
 ) -> None:
-    """Raise BadInput unless the trained models are scored or saved, and options of learning come with a corpus to learn
-    from."""
+    """Raise BadInput unless the trained models are scored or saved, and options of learning come with something that is
+    yet to be learned from, or read, by them."""
     if save is None and not tests:
         raise BadInput("nothing to score on", field="--test", allowed=f"a corpus, or {SAVE} FILE to learn only")
     if save is not None:
         require_file(save, SAVE)
         if learning.estimator is not None:
             raise BadInput("an estimator of your own is yours to keep", field=SAVE, allowed="with our learners")
-    if not is_saved(train):
-        return
+    changed = _changed(learning)
+    if is_saved(train):
+        changed += ["learning_curve"] * learning_curve + [SAVE.removeprefix("--")] * (save is not None)
+        if changed:
+            raise BadInput(f"{train} has learned already", field=_option(changed[0]), allowed=WITH_A_CORPUS)
+    read_by = [name for name in changed if name in ("bandwidth", "speed_error")]
+    if is_kept(train) and read_by:
+        raise BadInput(f"{train} have been read already", field=_option(read_by[0]), allowed=WITH_A_CORPUS)
+
+
+def _changed(learning: Learning) -> list[str]:
+    """The options of learning that are not as usual."""
     usual = Learning()
-    names = [field.name for field in fields(Learning)]
-    changed = [name for name in names if getattr(learning, name) != getattr(usual, name)]
-    changed += ["learning_curve"] * learning_curve + [SAVE.removeprefix("--")] * (save is not None)
-    if changed:
-        option = f"--{changed[0].replace('_', '-')}"
-        raise BadInput(f"{train} has learned already", field=option, allowed="with a corpus to learn from as --train")
+    return [field.name for field in fields(Learning) if getattr(learning, field.name) != getattr(usual, field.name)]
+
+
+def _option(name: str) -> str:
+    return f"--{name.replace('_', '-')}"
 
 
 def _require_folders(train: Path, tests: tuple[Path, ...], windows: bool) -> None:
-    if not is_saved(train) and ingredients_of(train) is None:
+    if not is_saved(train) and not is_kept(train) and ingredients_of(train) is None:
         if _corpus(train, TRAIN, TRAINING).manifest.imported:
             raise BadInput("classifiers learn from simulated corpora only", str(train), "--train")
     elif windows:
-        raise BadInput("plain impulse trains have features only", field="--input", value=WINDOWS, allowed=FEATURES)
+        raise BadInput(f"of {train} there are features only", field="--input", value=WINDOWS, allowed=FEATURES)
     for place, folder in enumerate(tests):
         if folder.resolve() in (earlier.resolve() for earlier in tests[:place]):
             raise BadInput("this corpus is named twice", str(folder), "--test")

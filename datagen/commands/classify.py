@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from datagen.benchmark.options import Learning, Options, Scoring
+from datagen.benchmark.options import TRANSFER_ROWS, Learning, Options, Scoring
 from datagen.commands.grouped import grouped
 from datagen.commands.program import JsonFile, command, show_tables, write_json
 from datagen.commands.progress_display import show_steps
@@ -35,9 +35,9 @@ Train = Annotated[
     Option(
         "--train",
         metavar="DIR|FILE",
-        help="Simulated corpus to learn from, or a file that --save wrote; impulse-trains, or "
-        "impulse-trains-without-INGREDIENT, to compare with signals without contact physics, which are made on the "
-        "spot (docs/own_estimators.md).",
+        help="Simulated corpus to learn from, or a file that --save wrote; transfer-rows are the features of the "
+        "corpus transfer, which come with the program; impulse-trains, or impulse-trains-without-INGREDIENT, to "
+        "compare with signals without contact physics, which are made on the spot (docs/own_estimators.md).",
     ),
 ]
 Folders = Annotated[list[Path] | None, Option("--test", metavar="DIR", help="Corpus to score on; may be given again.")]
@@ -79,10 +79,10 @@ Workers = Annotated[
 Out = Annotated[Path | None, Option("--out", metavar="DIR", help="Folder for report.json, report.png and report.csv.")]
 
 
-@command("spallgen classify --train out/transfer --test out/transfer --test out/cwru --out out/scores")
+@command("spallgen classify --test out/my_machine --out out/said")
 @grouped(OPTIONS)
 def classify(
-    train: Train,
+    train: Train = Path(TRANSFER_ROWS),
     test: Folders = None,
     more: More = None,
     learning: Learning = AS_USUAL.learning,

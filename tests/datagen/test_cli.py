@@ -202,7 +202,7 @@ def test_an_empty_value_is_refused_and_does_not_mean_the_current_folder(
     assert list(tmp_path.iterdir()) == []
 
 
-LEARNED = "a file that --save wrote, impulse-trains or impulse-trains-without-INGREDIENT"
+LEARNED = "a file that --save wrote, transfer-rows, impulse-trains or impulse-trains-without-INGREDIENT"
 
 
 @pytest.mark.parametrize(

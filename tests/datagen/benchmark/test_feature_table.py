@@ -12,11 +12,11 @@ from datagen.benchmark.corpus_rows import read_rows
 from datagen.benchmark.feature_table import COLUMNS, LABELS_SHOWN, feature_table, rejections
 from datagen.benchmark.fitness import TOO_SHORT
 from datagen.benchmark.plan import Benchmark
-from datagen.benchmark.run_learning import training_labels
-from datagen.benchmark.training import training_set
+from datagen.benchmark.training_source import CorpusRecords
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
 from datagen.judging.known import UNKNOWN_SPEED
+from datagen.progress import SILENT
 from datagen.recordings.importing import import_recordings
 from datagen.recordings.spec import load_spec
 from labels.classifier.liveness import DEAD, STOPPED
@@ -52,7 +52,7 @@ def of_recording(table, name):
 @pytest.mark.usefixtures("short_records_are_judged")
 def test_it_holds_the_very_rows_that_classify_learns_from(tiny_corpus):
     benchmark = Benchmark(tiny_corpus, ())
-    learned = training_set(tiny_corpus, training_labels(benchmark), benchmark.training_reading(), workers=1)
+    learned = CorpusRecords(benchmark).features(SILENT)
     table = feature_table([tiny_corpus], as_learned=True)
     assert np.array_equal(table[NAMES].to_numpy(), learned.rows.table)
     assert table["record"].tolist() == learned.rows.record.tolist()

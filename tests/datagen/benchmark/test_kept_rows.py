@@ -1,0 +1,130 @@
+"""The rows that come with the program: those of the corpus transfer, read as classify reads it, and learned from."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from command_line import run
+
+from datagen.benchmark import kept_rows
+from datagen.benchmark.corpus_rows import read_rows
+from datagen.benchmark.kept_rows import KeptRows, keep, main
+from datagen.benchmark.machines import learned_machines
+from datagen.benchmark.options import Learning
+from datagen.benchmark.plan import Benchmark, training_reading_of
+from datagen.benchmark.training import labelled
+from datagen.benchmark.training_source import CorpusRecords
+from datagen.corpus import Corpus
+from datagen.errors import BadInput
+from datagen.progress import SILENT
+from datagen.recipes.recipe import load_recipe
+from datagen.runs.generate import generate
+from datagen.runs.workers import Engine
+from labels.features.table import FEATURE_NAMES
+
+RECORDS, MACHINES, TO_SCORE = 1540, 480, 95  # of transfer: learned from; in all, and of the split test
+# What another processor, or physics as exact as asked for, may make of a feature.
+ALIKE = 0.02
+
+
+@pytest.fixture(scope="module")
+def beginning(tmp_path_factory):
+    """The records of the first machine of transfer, made anew."""
+    folder = tmp_path_factory.mktemp("transfer") / "corpus"
+    assert generate(load_recipe("transfer"), folder, limit=4, engine=Engine(workers=1)).complete
+    return folder
+
+
+@pytest.fixture
+def kept_tiny(tiny_corpus, tmp_path, monkeypatch):
+    """What is learned from the tiny corpus, and the same as kept rows."""
+    monkeypatch.setattr("datagen.benchmark.fitness.SHORTEST", 0.0)
+    monkeypatch.setattr("datagen.benchmark.fitness.FEWEST_TURNS", 0.0)
+    source = CorpusRecords(Benchmark(tiny_corpus, (tiny_corpus,)))
+    keep(tiny_corpus, tmp_path / "rows.npz")
+    return source, KeptRows(file=tmp_path / "rows.npz")
+
+
+def test_they_are_those_of_the_records_of_transfer(beginning):
+    labels = Corpus(beginning).labels
+    made = labelled(read_rows(beginning, np.arange(4), training_reading_of(Learning()), 1).rows, labels)
+    kept = KeptRows().features(SILENT)
+    kept = kept.subset(np.isin(kept.rows.record, np.arange(4)))
+    assert np.allclose(kept.rows.table, made.rows.table, rtol=ALIKE, atol=ALIKE)
+    for name in ("record", "axis", "noisy"):
+        assert np.array_equal(getattr(kept.rows, name), getattr(made.rows, name))
+    assert kept.classes.tolist() == made.classes.tolist()
+    assert kept.bearings.tolist() == made.bearings.tolist()
+    assert KeptRows().recipe == load_recipe("transfer").hash[:16]
+
+
+def test_those_of_the_split_test_are_left_to_score():
+    kept = KeptRows()
+    assert np.unique(kept.features(SILENT).rows.record).size == RECORDS
+    assert np.unique(kept.machines.known).size == MACHINES
+    assert np.unique(kept.machines.seen).size == MACHINES - TO_SCORE
+
+
+def test_kept_and_taken_up_again_they_are_what_the_corpus_gives(tiny_corpus, kept_tiny):
+    source, kept = kept_tiny
+    ours, theirs = kept.features(SILENT), source.features(SILENT)
+    assert np.array_equal(ours.rows.table, theirs.rows.table.astype(np.float32))
+    assert np.array_equal(ours.rows.record, theirs.rows.record)
+    assert ours.classes.tolist() == theirs.classes.tolist()
+    assert ours.bearings.tolist() == theirs.bearings.tolist()
+    records = Corpus(tiny_corpus).labels.query("split != 'test'")["record"].to_numpy()
+    machines = learned_machines(Corpus(tiny_corpus), records)
+    assert set(kept.machines.seen) == set(machines.seen)
+    assert set(kept.machines.known) == set(machines.known)
+    assert kept.recipe == source.recipe
+
+
+def test_the_first_records_alone_are_learned_from():
+    kept = KeptRows(first=40)
+    records = KeptRows().features(SILENT).rows.record
+    assert np.unique(kept.features(SILENT).rows.record).tolist() == np.unique(records)[:40].tolist()
+    assert np.unique(kept.machines.seen).size == np.unique(kept.features(SILENT).bearings).size
+    with pytest.raises(BadInput, match="too few virtual bearings"):
+        KeptRows(first=3)
+
+
+def test_classify_learns_from_them_where_nothing_else_is_named(other_corpus, tmp_path):
+    saved = tmp_path / "saved"
+    done = run("classify", "--learner", "logistic", "--first", "40", "--test", other_corpus, "--save", saved)
+    assert done.exit_code == 0, done.output
+    assert "learning from transfer-rows: 40 records of 10 virtual bearings" in done.output
+    assert run("classify", "--train", saved, "--test", other_corpus).exit_code == 0
+
+
+def test_no_record_is_scored_of_a_machine_that_they_hold(beginning):
+    done = run("classify", "--learner", "logistic", "--test", beginning)
+    assert done.exit_code == 2
+    assert "all its virtual bearings" in done.output
+
+
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [
+        (("--bandwidth", "8000"), "--bandwidth: transfer-rows have been read already"),
+        (("--speed-error", "0.01"), "--speed-error: transfer-rows have been read already"),
+        (("--estimator", "own_estimators:Guesser", "--input", "windows"), "of transfer-rows there are features only"),
+        (("--first", "3"), "--first = 3: too few virtual bearings"),
+    ],
+)
+def test_what_does_not_go_with_them_is_refused(other_corpus, classify, options, told):
+    done = run("classify", "--test", other_corpus, *options)
+    assert done.exit_code == 2
+    assert told in done.output
+
+
+def test_rows_of_other_features_are_refused(monkeypatch):
+    monkeypatch.setattr(kept_rows, "FEATURE_NAMES", FEATURE_NAMES[::-1])
+    with pytest.raises(BadInput, match="features have changed"):
+        KeptRows()
+
+
+def test_a_folder_without_a_corpus_leaves_the_file_as_it_is(tmp_path, capsys):
+    before = kept_rows.KEPT_FILE.read_bytes()
+    assert main([str(tmp_path)]) == 2
+    assert str(tmp_path) in capsys.readouterr().err
+    assert kept_rows.KEPT_FILE.read_bytes() == before

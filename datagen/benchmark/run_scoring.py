@@ -15,6 +15,7 @@ from datagen.benchmark.results import CorpusResults, NoisyScores
 from datagen.benchmark.summary import summarise
 from datagen.benchmark.trained import Trained
 from datagen.benchmark.verdicts import Judges, pool
+from datagen.counts import counted
 from datagen.judging.scored_runs import write_line
 from datagen.progress import Listener
 from physics.bearing import RACES
@@ -26,7 +27,7 @@ def score_corpus(benchmark: Benchmark, chosen: ChosenRecords, trained: Trained, 
     folder, scoring, options = chosen.folder, benchmark.scoring, benchmark.options.to_dict()
     if chosen.imported:
         write_line(folder, {"began": options, "train": str(benchmark.train)})
-    listener.say(f"testing on {len(chosen.labels)} records of {folder}")
+    listener.say(f"testing on {counted(len(chosen.labels), 'record')} of {folder}")
     count = listener.counting(f"features of {folder.name}")
     rows = read_rows(folder, chosen.numbers, benchmark.reading(), benchmark.workers, count)
     if benchmark.learning.takes_windows:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -16,7 +17,7 @@ from datagen.counts import counted
 from datagen.judging.stated_speed import SPEED_ERROR
 from datagen.processes import MOST_WORKERS
 from labels.interval import Interval
-from labels.schema import LOCATIONS
+from labels.schema import HEALTHY, LOCATIONS, UNKNOWN
 
 if TYPE_CHECKING:
     from datagen.benchmark.model_scores import Scores
@@ -140,7 +141,7 @@ def print_results(tests: list[CorpusResults]) -> None:
 
     for test in tests:
         found = test.scores
-        print(f"{found.corpus}: {counted(found.records, 'record')}, {found.locations}")
+        print(f"{found.corpus}: {counted(found.records, 'record')}: {_of_each(found.locations)}")
         scored = any(found.locations.get(location) for location in LOCATIONS)
         if not scored:
             print("  no scores  the true class of no record is known")
@@ -192,6 +193,12 @@ def score_line(scores: Scores) -> str:
         error = scores.calibration.calibration_error
         parts.append(f"calibration error {error.value:.3f}{_bracket(error)}")
     return ", ".join([*parts, *counts])
+
+
+def _of_each(locations: Mapping[str, int]) -> str:
+    """How many records there are of each true location that any has, in the words of people."""
+    words = {"none": HEALTHY, UNKNOWN: "not scored"}
+    return ", ".join(f"{count} {words.get(location, location)}" for location, count in locations.items() if count)
 
 
 def _bearings(scores: Scores) -> str:

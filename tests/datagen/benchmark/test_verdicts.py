@@ -350,7 +350,9 @@ def test_what_is_said_of_records_that_are_not_scored_is_told_record_by_record(ca
     outer, healthy = [0.05, 0.95, 0.0, 0.0, 0.0], [0.9, 0.1, 0.0, 0.0, 0.0]
     tested = judged(["none", "unknown", "ball"], [healthy, outer, healthy])
     print_results([CorpusResults(summarise(tested), record_predictions(tested), [])])
-    lines = [line for line in capsys.readouterr().out.splitlines() if "│" in line]
+    shown = capsys.readouterr().out
+    assert ": 3 records: 1 healthy, 2 not scored\n" in shown
+    lines = [line for line in shown.splitlines() if "│" in line]
     assert len(lines) == 2
     assert "unknown" in lines[0]
     assert "outer (0.95 > 0.50)" in lines[0]

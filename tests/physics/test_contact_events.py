@@ -46,6 +46,7 @@ def events(initial, log, *passes):
         (True, [(3.0, False), (5.0, True), (5.5, False), (5.8, True)], (NEVER, NEVER, True, True)),
         (False, [(3.0, True), (4.5, False), (5.5, True)], (4.5, 5.5, True, True)),
         (True, [(4.0, False), (6.0, True)], (4.0, 6.0, True, True)),
+        (True, [(6.0, False), (7.0, True)], (6.0, 7.0, True, True)),
         (True, [(6.5, False), (7.5, True)], (NEVER, NEVER, True, False)),
     ],
 )
@@ -59,6 +60,13 @@ def test_a_pass_that_begins_before_the_record_takes_contact_as_it_stands_at_0():
     release, regain, loaded, lost = events(False, [(0.5, True), (0.7, False), (0.9, True)], (-1.0, 1.0))
     assert np.isnan([release[0], regain[0]]).all()
     assert loaded == lost == [True]
+
+
+def test_a_pass_that_begins_in_a_lead_in_takes_contact_as_it_stands_at_0():
+    release, regain, loaded, lost = events(True, [(-0.5, False), (0.5, True)], (-1.0, 1.0))
+    assert np.isnan([release[0], regain[0]]).all()
+    assert loaded == lost == [True]
+    assert events(False, [(-0.5, True), (0.5, False), (0.7, True)], (-1.0, 1.0)) == [[0.5], [0.7], [True], [True]]
 
 
 def test_passes_of_one_ball_do_not_share_their_events():

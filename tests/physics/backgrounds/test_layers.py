@@ -9,6 +9,7 @@ from physics.backgrounds.mains_hum import MainsHum, mains_hum
 from physics.backgrounds.pink import PinkNoise, pink_density, pink_noise
 from physics.backgrounds.recording import draw_starts
 from physics.backgrounds.shaft_harmonics import ShaftHarmonics, shaft_harmonics
+from physics.backgrounds.tones import tones
 from physics.backgrounds.white import white_noise
 from physics.checks import InvalidParameter
 from physics.sensor.chain import SensorChain
@@ -119,6 +120,22 @@ def test_the_mesh_is_the_product_of_its_modulation_and_its_harmonics(teeth, othe
         modulation = modulation + 0.5 ** (k + 1) * np.cos((k + 1) * turn + own[k])
         modulation += 0.25 ** (k + 1) * np.cos((k + 1) * teeth / other_teeth * turn + other[k])
     assert signal == pytest.approx(2.0 * modulation * np.cos(teeth * turn + carrier), abs=1e-12)  # rounding
+
+
+def test_a_mesh_whose_other_gear_is_not_known_has_no_sidebands_of_it():
+    alone, modulated = (GearMesh(20, (1.0,), 0, 0.5, other) for other in (0.0, 0.3))
+    expected, signal = (gear_mesh(np.random.default_rng(6), layer, 90.0, 200, RATE) for layer in (alone, modulated))
+    assert np.array_equal(signal, expected)
+
+
+def test_lines_below_0_hz_lie_at_their_absolute_frequency_and_are_left_out_from_half_the_rate_on():
+    def tone(frequency):
+        return tones(np.array([frequency]), np.array([2.0]), np.array([[0.3, 0.9]]), 400, RATE)
+
+    turn = 2.0 * np.pi * 100.0 * np.arange(400)[:, None] / RATE
+    assert tone(-100.0) == pytest.approx(2.0 * np.cos(turn - np.array([0.3, 0.9])), abs=1e-12)  # rounding
+    assert not tone(-RATE / 2.0).any()
+    assert not tone(-5000.0).any()
 
 
 def test_hum_stands_at_multiples_of_the_mains():
@@ -260,7 +277,7 @@ def test_an_impossible_layer_is_refused_with_its_number(make, message):
 def test_stretches_of_a_recording_start_anywhere_that_fits():
     generator = np.random.default_rng(10)
     starts = np.array([draw_starts(generator, 12, 10) for _ in range(200)])
-    assert set(starts.ravel().tolist()) == {0, 1, 2}
+    assert {tuple(pair) for pair in starts.tolist()} == {(first, second) for first in range(3) for second in range(3)}
     assert draw_starts(generator, 10, 10) == (0, 0)
 
 

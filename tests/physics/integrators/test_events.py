@@ -12,6 +12,9 @@ from physics.assembly import assemble
 from physics.contact.forces import ACTIVE
 from physics.integrators import events
 from physics.integrators.events import Way
+from physics.integrators.state_contact import locate
+from physics.integrators.trial import Trial
+from physics.motion import motion_model
 from physics.reference_scenes import reference_scene
 
 hermite_root = events.hermite_root.py_func
@@ -69,3 +72,20 @@ def test_a_ball_that_touches_in_a_step_is_found_wherever_it_was_seen(falling, se
     share, ball, rate = earliest_change(contacts, way, False, suspects)
     assert (share, ball) == (pytest.approx(0.8, abs=1e-6), BOTTOM)
     assert rate == pytest.approx(0.2, rel=1e-3)  # 2 µm in 10 µs; the cage turns by 0.01 degrees meanwhile
+
+
+def test_a_touch_is_located_with_the_force_at_both_ends_of_the_step(falling):
+    contacts, _ = falling
+    scene = reference_scene("G0", 0.1)
+    rig = replace(scene.rig, outer_mass=1e9)  # stands still
+    motion = motion_model(replace(scene, rig=rig, operation=replace(scene.operation, load=0.0)))
+    now, then = np.zeros(12), np.zeros(12)
+    # A force that grows from 0 along the step makes a path of degree 3: 3.4 + 2 x + x³ µm at the share x of the step.
+    now[1], now[7] = -3.4e-6, -2e-6 / STEP
+    then[1], then[7] = -6.4e-6, -5e-6 / STEP
+    force = 6e-6 * rig.inner_mass / STEP**2
+    set_time(contacts, STEP)
+    press(contacts, then[0], then[1], then[6], then[7])
+    share, ball = locate(contacts, motion, Trial(0.0, STEP, now, (0.0, 0.0), then, (0.0, force), 0))
+    touch = np.polynomial.Polynomial([3.4e-6 - CLEARANCE, 2e-6, 0.0, 1e-6]).roots()
+    assert (share, ball) == (pytest.approx(touch[np.isreal(touch)].real[0], abs=1e-6), BOTTOM)  # the cage turns

@@ -34,6 +34,14 @@ def test_modes_add_to_the_resonator_and_the_mounting_comes_last(trace):
     assert sensed(chain, trace) == pytest.approx(mounted(Mounting(9000.0, 4), together, trace.rate), rel=1e-12)
 
 
+def test_the_mounting_works_at_the_rate_of_the_trace_and_not_at_that_of_the_outer_ring(trace):
+    slower = {"time": trace.time[::2], "acceleration": trace.acceleration[::2]}
+    lower = dataclasses.replace(trace, rate=trace.rate / 2.0, **slower)
+    bare, mounting = SensorChain(MODES), Mounting(9000.0, 4)
+    expected = mounted(mounting, sensed(bare, lower), lower.rate)
+    assert np.array_equal(sensed(dataclasses.replace(bare, mounting=mounting), lower), expected)
+
+
 def test_the_fastest_of_its_modes_is_that_of_the_chain():
     assert SensorChain(MODES).fastest == SensorChain(MODES[::-1]).fastest == 7100.0
     assert SensorChain().fastest == 0.0

@@ -19,7 +19,7 @@ import numpy as np
 
 from physics._jit import njit, njit_inline
 from physics.arrays import Array
-from physics.contact.contact_set import count_changes, mark_of
+from physics.contact.contact_set import count_changes, count_dips, mark_of, note_motion
 from physics.contact.forces import ACTIVE, Contacts, set_time
 from physics.integrators.exponential_rk4 import OUTER_STATE, flow_component, step_exponential_rk4
 from physics.integrators.fixed_step_march import Workspace, bind_method, carrying
@@ -126,16 +126,17 @@ def step_exponential_adams(
     """One step of length `step` from `start` (23,), where the net contact force is `force`, into `end` (23,).
 
     The contact set stays frozen. Leaves `contacts` at the end time; returns how many balls contradict the set at the
-    predicted end, or halfway in a restarting step.
+    predicted end or seem to in between, or contradict it halfway in a restarting step.
     """
     mark, known = mark_of(contacts.balls, ACTIVE), int(start[KNOWN])
     if abs(start[LENGTH] - step) > SAME * step or abs(start[END] - time) > SAME * step or start[CONTACTS] != mark:
         known = 0
     if known >= int(start[ORDER]):
+        note_motion(contacts.balls, work.noted)
         _advance(motion, work.weights, time, step, start, force, force, False, end)
         set_time(contacts, time + step)
         ahead = press_state(contacts, end)
-        contradicted = count_changes(contacts)
+        contradicted = count_changes(contacts) + count_dips(contacts.balls, work.noted, step)
         _advance(motion, work.weights, time, step, start, force, ahead, True, end)
     else:
         contradicted = _restart(contacts, motion, work, time, step, start, force, end)

@@ -1,6 +1,6 @@
 """Marching a method at fixed steps from sample to sample, stopping at every change of contact and every known kink.
 
-A trial step is made with the contact set frozen. If at its end, or halfway, a ball contradicts the set, the instant of
+A trial step is made with the contact set frozen. If at its end, or inside it, a ball contradicts the set, the instant of
 the first contradiction is located and the step is repeated up to it. There the ball changes sides, and the march goes
 on. Times at which a ball crosses an edge of its path are known beforehand and are step ends.
 """
@@ -38,10 +38,12 @@ SHORTEST_GRADED_SHARE = 1.0 / 16.0
 
 
 class Workspace(NamedTuple):
-    """What the step of a method may use: the propagator's `weights` (2, 13, 4) for its length, and scratch (4, 6)."""
+    """What the step of a method may use: the propagator's `weights` (2, 13, 4) for its length, scratch (4, 6), and room
+    (G, 2, M) for the motion of M balls in each of G cages."""
 
     weights: Array
     stage: Array
+    noted: Array
 
 
 class Span(NamedTuple):
@@ -53,9 +55,9 @@ class Span(NamedTuple):
 
 
 @njit
-def workspace() -> Workspace:
-    """Room for the steps of one march."""
-    return Workspace(np.empty((2, WEIGHT_ROWS, 4)), np.empty((4, 6)))
+def workspace(cages: int, balls: int) -> Workspace:
+    """Room for the steps of one march, with so many `balls` in each of the `cages`."""
+    return Workspace(np.empty((2, WEIGHT_ROWS, 4)), np.empty((4, 6)), np.empty((cages, 2, balls)))
 
 
 def _unbound(*_arguments: object) -> Any:
@@ -146,7 +148,8 @@ def _cross(
 
     `pace` (1,) is the longest step allowed (s): short after contact was made, then doubling with every step.
     """
-    work, then = workspace(), np.empty(now.size)
+    cages, _, balls = contacts.balls.shape
+    work, then = workspace(cages, balls), np.empty(now.size)
     time, ahead, tried = span.start, span.kink, 0
     smallest = SMALLEST_STEP_SHARE * series.step
     while span.finish - time > smallest:
@@ -186,7 +189,11 @@ def _march(
 
     Returns DONE, NOT_FINITE or LOG_FULL.
     """
-    now, then, work = start_state.copy(), np.empty(start_state.size), workspace()
+    now, then, work = (
+        start_state.copy(),
+        np.empty(start_state.size),
+        workspace(contacts.balls.shape[0], contacts.balls.shape[2]),
+    )
     set_step(series, work.weights, 1.0)
     force = find_contact(contacts, now, output)
     ahead, pace = 0, np.full(1, grid.step)
@@ -206,6 +213,8 @@ def _march(
                     now, then = then, now
                     force = after
                     continue
+                set_time(contacts, start)
+                press_state(contacts, now)
             force = cross(contacts, motion, series, stops, Span(start, finish, ahead), now, force, pace, output)
             if output.tally[LOGGED] >= output.change_time.size:
                 return LOG_FULL
@@ -233,7 +242,7 @@ def bind_method(name: str, step: Callable[..., int]) -> Callable[..., int]:
     contact set frozen: from the state `start` (12,), where `contacts` stand and their net `force` (N, N) is known, to
     `end` (12,), leaving `contacts` moved to the end of the step but not pressed there. `work` is a Workspace, whose
     weights are of this length; a method need not use it. It returns how many balls contradict the contact set at a
-    stage inside the step, 0 if it does not look.
+    stage inside the step, or seem to, 0 if it does not look.
     """
     called = specialise(_step, f"step_{name}_called", step_pasted=step)
     attempting = specialise(_attempt, f"attempt_{name}", step_called=called)

@@ -147,7 +147,7 @@ def _march(
     state: Array,
 ) -> None:
     """Fill the `acceleration` (T, 2), and the `state` (T or 0, 12), from the state `start`."""
-    now, then, work = start.copy(), np.empty(12), workspace()
+    now, then, work = start.copy(), np.empty(12), workspace(0, 0)
     contacts = LinearContacts(table, axis, np.empty(COLUMNS))
     set_step(series, work.weights, 1.0)
     _look_up(contacts, 0.0)

@@ -59,11 +59,7 @@ def test_under_an_unbalance_alone_the_reference_goes_round_in_a_circle():
     assert np.abs(trace.state[:, :2] - path).max() < 1e-7 * radius  # a relative tolerance of 1e-9 a step
 
 
-# Adams methods look at both ends of a step alone.
-LOOKING_INSIDE = [method for method in MARCHES if "adams" not in method]
-
-
-@pytest.mark.parametrize("method", LOOKING_INSIDE)
+@pytest.mark.parametrize("method", MARCHES)
 def test_a_ball_that_rolls_over_a_lip_within_one_step_touches_the_shaft_as_long_as_its_circle_says(method):
     passed, overlap = 20.5 * STEP, 5e-9
     lip = {"table_angle": (-0.01, -0.001, 0.0, 0.001, 0.01), "table_depth": (0.0, 0.0, -3e-6, 0.0, 0.0)}

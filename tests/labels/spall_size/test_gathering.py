@@ -50,6 +50,38 @@ def test_passes_of_a_slipping_cage_are_tracked_though_the_stated_period_is_wrong
     assert np.percentile(np.abs(away - np.median(away)), 90) < 0.006 * PERIOD
 
 
+def test_a_record_that_begins_while_it_rings_shows_no_event_there():
+    pulses = np.zeros(20000)
+    pulses[100:19000:900] = np.resize([1.0, -1.0], 21)
+    signal = lfilter([1.0], [1.0, -1.6, 0.95], pulses)[110:]  # begins ten samples after a pulse
+    residual = np.abs(prewhitened(signal + 1e-9 * np.random.default_rng(0).standard_normal(signal.size)).residual)
+    assert residual[:100].max() < 0.1 * residual[890]
+
+
+@pytest.fixture(scope="module")
+def rough_passes():
+    """The energy of 20 passes of 1280 samples, five to each cell of the tracker: log energies of chance in a pass, the
+    highest in cell 77, and an eighth of a pass before the first."""
+    level = np.random.default_rng(3).standard_normal(CELLS)
+    level[77] = 4.0
+    return np.concatenate([np.ones(160), np.tile(np.repeat(np.exp(1.5 * level), 5), 20)])
+
+
+def test_a_pattern_lies_round_the_instants_that_are_told(rough_passes):
+    track = track_passes(rough_passes, RATE, 1280 / RATE)
+    peak = (track.time + (track.pattern.argmax() - CELLS // 2) * track.period / CELLS) * RATE
+    true = 160.0 + 77 * 5 + 2.5 + 1280.0 * np.arange(20)  # the middle of the highest cell of each pass
+    assert np.abs(peak[:, None] - true).min(axis=1).max() < 1.0
+    # Of passes that are all alike the standard deviation of the record is that of the pattern.
+    assert track.score == pytest.approx(math.sqrt(CELLS), rel=0.1)
+
+
+@pytest.mark.parametrize(("passes", "tracked"), [(4.9, False), (5.1, True)])
+def test_five_passes_are_tracked_and_fewer_are_not(rough_passes, passes, tracked):
+    found = track_passes(rough_passes[: round(passes * 1280)], RATE, 1280 / RATE)
+    assert (found is not None) == tracked
+
+
 def test_too_short_a_record_has_no_track():
     assert track_passes(np.ones(1000), RATE, PERIOD) is None
 
@@ -180,8 +212,9 @@ def test_passes_count_by_their_weight(weight, passes):
     assert mean_pass(noise, noise, Alignment(place, np.array(weight)), 200.0).passes == pytest.approx(passes)
 
 
-def test_a_pass_half_as_loud_weighs_a_quarter():
-    period, loud = 400, np.where(np.arange(20) % 5 == 2, 0.5, 1.0)
+@pytest.mark.parametrize("quiet", [(2,), (0, 1, 2, 4)])
+def test_a_pass_half_as_loud_weighs_a_quarter(quiet):
+    period, loud = 400, np.where(np.isin(np.arange(20) % 5, quiet), 0.5, 1.0)
     energy = np.zeros(20 * period)
     energy[200 + period * np.arange(20)] = loud**2
     pattern = np.zeros(CELLS)
@@ -190,6 +223,30 @@ def test_a_pass_half_as_loud_weighs_a_quarter():
     found = aligned(energy, RATE, track)
     assert found.place == pytest.approx(200.0 + period * np.arange(20), abs=1e-6)
     assert found.weight == pytest.approx(loud**2)
+
+
+def lined_up(place, nominal, second):
+    """Where passes of 1600 samples are lined up whose event is at `place` (K,), in samples, `nominal` (K,) being known,
+    and followed after six samples by one of the size `second` (K,)."""
+    since = np.maximum(np.arange(1600 * place.size) - place[:, None] - np.array([0.0, 6.0])[:, None, None], 0.0)
+    events = (since / 1.2) ** 2 * np.exp(-since / 1.2) * np.stack([np.ones(place.size), second])[..., None]
+    pattern = np.zeros(CELLS)
+    pattern[CELLS // 2] = 1.0
+    track = PassTrack(nominal / RATE, 1600 / RATE, pattern, 1.0)
+    return aligned(events.sum(axis=(0, 1)) ** 2, RATE, track).place
+
+
+def test_passes_are_lined_up_to_a_tenth_of_a_sample():
+    nominal = 800.0 + 1600.0 * np.arange(20)
+    place = nominal + np.random.default_rng(6).uniform(-2.0, 2.0, 20)
+    away = lined_up(place, nominal, np.zeros(20)) - place
+    assert np.abs(away - away.mean()).max() < 0.1
+
+
+def test_a_pass_that_shows_the_first_of_two_events_alone_is_lined_up_with_the_others():
+    place = 800.0 + 1600.0 * np.arange(20)
+    away = lined_up(place, place, np.where(np.arange(20) % 3 == 1, 0.0, 0.8)) - place
+    assert np.abs(away - away.mean()).max() < 0.5
 
 
 def test_prewhitened_noise_is_told_in_units_of_its_median_size():

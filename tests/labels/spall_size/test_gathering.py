@@ -12,7 +12,7 @@ from labels.spall_size.columns.table import PAIR_COLUMNS
 from labels.spall_size.estimation.gathering import gather_evidence, peakedness, predictability
 from labels.spall_size.events.candidates import candidate_places
 from labels.spall_size.signal.alignment import Alignment, aligned
-from labels.spall_size.signal.mean_pass import MeanPass, mean_pass
+from labels.spall_size.signal.mean_pass import Channel, MeanPass, mean_pass
 from labels.spall_size.signal.pass_track import CELLS, PassTrack, track_passes
 from labels.spall_size.signal.prewhitening import prewhitened
 from labels.spall_size.signal.running_energy import RunningEnergy
@@ -136,6 +136,66 @@ def mean_of_steps(first, last, period=400.0):
     rumble = np.where((phase >= first) & (phase <= last), 100.0, 1.0)
     flat = np.zeros(offset.size)
     return MeanPass(offset, np.tile(rumble, (4, 1)), flat, flat, 1.0, flat, 1.0, 50.0, period)
+
+
+def mean_of_passes(whitened, place, weight=None, signal=None):
+    weight = np.ones(len(place)) if weight is None else np.array(weight)
+    signal = whitened if signal is None else signal
+    return mean_pass(signal, whitened, Alignment(np.asarray(place, dtype=float), weight), 400.0)
+
+
+def test_each_band_holds_what_lies_in_it():
+    """Bursts of 0.01, 0.06 and 0.3 of the rate, at 100 samples before the anchor, at it and 100 behind it."""
+    time, place = np.arange(8000), 400 * np.arange(2, 18)
+    whitened = 1e-3 * np.random.default_rng(0).standard_normal(time.size)
+    for away, share in ((-100, 0.01), (0, 0.06), (100, 0.3)):
+        since = time - place[:, None] - away
+        whitened += (np.exp(-0.5 * (since / 15.0) ** 2) * np.cos(2.0 * np.pi * share * since)).sum(axis=0)
+    mean = mean_of_passes(whitened, place)
+    near = np.abs(mean.offset) < 150
+    strongest = {channel.word: mean.offset[near][mean.energy[channel][near].argmax()] for channel in Channel}
+    assert strongest | {"all": 0} == {"all": 0, "low": -100, "middle": 0, "high": 100}
+
+
+@pytest.mark.parametrize("scale", [1e-3, 1.0, 1e3])
+def test_the_energy_of_each_channel_is_over_its_own_median(scale):
+    noise = scale * np.random.default_rng(0).standard_normal(100_000)
+    mean = mean_of_passes(noise, 400 * np.arange(2, 240))
+    # Half of the squares of a standard normal variable, whose mean is 1, are below 0.6745².
+    assert mean.energy.mean(axis=1) == pytest.approx(np.full(4, 1.0 / 0.6745**2), rel=0.05)
+
+
+def test_neither_passes_without_weight_nor_what_lies_beyond_the_record_count():
+    whitened = np.ones(3000)
+    whitened[[0, 1650]] = 1e3  # what stands at the start is before the first pass but for 200 samples
+    mean = mean_of_passes(whitened, [200, 1000, 1600], [1.0, 1.0, 0.0])
+    at = np.flatnonzero(mean.energy[Channel.ALL] > 2.0)
+    assert mean.offset[at].tolist() == [-200]
+
+
+def test_waveform_and_sway_are_of_the_signal_prewhitened_and_as_it_was():
+    turn = 2.0 * np.pi * np.arange(20_000) / 400.0
+    mean = mean_of_passes(np.sin(20.0 * turn), 400 * np.arange(2, 48), signal=5.0 + 3.0 * np.cos(turn))
+    turn = 2.0 * np.pi * mean.offset / 400.0
+    assert mean.waveform == pytest.approx(np.sin(20.0 * turn), abs=1e-9)
+    assert (mean.sway.mean(), mean.sway.std()) == pytest.approx((0.0, 1.0), abs=1e-12)
+    assert mean.sway_unit == pytest.approx((3.0 * np.cos(turn)).std(), rel=0.01)  # a blur of 4 samples leaves 0.998
+
+
+def test_energy_is_periodic():
+    mean = replace(mean_of_steps(0, 0), energy=np.tile(1.0 + np.arange(-440, 441) % 400, (4, 1)))
+    summed, ends = RunningEnergy(mean), np.array([[-460.0, -450.0], [-60.0, -50.0], [340.0, 350.0]])
+    # Offsets 340 to 350, both included, have energies of 341 to 351, the same as those a period or two earlier.
+    assert summed.level(*ends.T)[0] == pytest.approx(np.full(3, math.log(346.0)))
+    assert summed.level(np.array([445.0]), np.array([455.0]))[0] == pytest.approx([math.log(51.0)])
+
+
+@pytest.mark.parametrize("channel", [Channel.LOW, Channel.HIGH])
+def test_what_only_one_band_shows_is_a_candidate_too(channel):
+    mean = mean_of_steps(500, 600)
+    energy = np.ones_like(mean.energy)
+    energy[channel] += 50.0 * np.exp(-0.5 * ((mean.offset - 30.0) / 3.0) ** 2)
+    assert np.abs(candidate_places(replace(mean, energy=energy)) - 30.0).min() < 0.5
 
 
 def test_both_ends_of_a_rumble_are_candidates():

@@ -152,9 +152,9 @@ def test_each_band_holds_what_lies_in_it():
         since = time - place[:, None] - away
         whitened += (np.exp(-0.5 * (since / 15.0) ** 2) * np.cos(2.0 * np.pi * share * since)).sum(axis=0)
     mean = mean_of_passes(whitened, place)
-    near = np.abs(mean.offset) < 150
-    strongest = {channel.word: mean.offset[near][mean.energy[channel][near].argmax()] for channel in Channel}
-    assert strongest | {"all": 0} == {"all": 0, "low": -100, "middle": 0, "high": 100}
+    bursts = mean.energy[:, [np.flatnonzero(mean.offset == away)[0] for away in (-100, 0, 100)]]
+    # Gaussian edges at 0.03 and 0.12 of the rate leave less than 2 % of the energy of the other ones, and 55 % or more.
+    assert (bursts[1:] / bursts[1:].max(axis=1, keepdims=True) > 0.1).tolist() == np.eye(3, dtype=bool).tolist()
 
 
 @pytest.mark.parametrize("scale", [1e-3, 1.0, 1e3])
@@ -191,11 +191,11 @@ def test_energy_is_periodic():
 
 
 @pytest.mark.parametrize("channel", [Channel.LOW, Channel.HIGH])
-def test_what_only_one_band_shows_is_a_candidate_too(channel):
+def test_what_only_one_band_shows_is_a_candidate_too_to_a_fraction_of_a_sample(channel):
     mean = mean_of_steps(500, 600)
     energy = np.ones_like(mean.energy)
-    energy[channel] += 50.0 * np.exp(-0.5 * ((mean.offset - 30.0) / 3.0) ** 2)
-    assert np.abs(candidate_places(replace(mean, energy=energy)) - 30.0).min() < 0.5
+    energy[channel] += 50.0 * np.exp(-0.5 * ((mean.offset - 30.3) / 3.0) ** 2)
+    assert np.abs(candidate_places(replace(mean, energy=energy)) - 30.3).min() < 0.1
 
 
 def test_both_ends_of_a_rumble_are_candidates():

@@ -161,6 +161,12 @@ def test_every_window_lies_where_its_name_says(event, place):
         assert row[f"{event}_low_step_{reach}"] == pytest.approx(math.log((core + middle) / (core - middle)))
 
 
+def test_beside_events_side_by_side_a_window_reaches_two_samples_beyond_the_core():
+    growing = replace(known_pass(), energy=1000.0 + np.arange(-440.0, 441.0) * np.ones((4, 1)))
+    # Half a lag would be two samples; the core reaches one, and a sample lies between.
+    assert math.exp(pair_of(growing, -4.0, 0.0)["exit_before_all"]) == pytest.approx(1000.0 - 2.5)
+
+
 def test_what_else_there_is_is_told_over_the_weaker_event():
     known = known_pass()
     energy = np.ones((4, known.offset.size))

@@ -13,6 +13,7 @@ from labels.spall_size.estimation.gathering import gather_evidence, peakedness, 
 from labels.spall_size.events.candidates import candidate_places
 from labels.spall_size.signal.alignment import Alignment, aligned
 from labels.spall_size.signal.mean_pass import Channel, MeanPass, mean_pass
+from labels.spall_size.signal.noise_floor import log_noise_share
 from labels.spall_size.signal.pass_track import CELLS, PassTrack, track_passes
 from labels.spall_size.signal.prewhitening import prewhitened
 from labels.spall_size.signal.running_energy import RunningEnergy
@@ -136,6 +137,29 @@ def mean_of_steps(first, last, period=400.0):
     rumble = np.where((phase >= first) & (phase <= last), 100.0, 1.0)
     flat = np.zeros(offset.size)
     return MeanPass(offset, np.tile(rumble, (4, 1)), flat, flat, 1.0, flat, 1.0, 50.0, period)
+
+
+@pytest.mark.parametrize("race", ["outer", "inner"])
+def test_pairs_know_what_their_record_is_like(pulse_train, race):
+    signal = pulse_train(LAG, PERIOD, noise=0.3, duration=0.4).signal
+    found = gather_evidence(signal, RATE, {race: PERIOD})
+    row, white = dict(zip(PAIR_COLUMNS, found.pairs.features[0], strict=True)), prewhitened(signal)
+    assert (found.race, row["inner"]) == (race, float(race == "inner"))
+    assert row["score"] == found.track.score
+    told = {name: row[name] for name in ("noise", "predictability", "peakedness")}
+    facts = (log_noise_share(signal), predictability(signal), peakedness(white.residual**2))
+    assert told == pytest.approx(dict(zip(told, facts, strict=True)))
+    assert (found.deviation, found.unit) == pytest.approx((signal.std(), white.unit))
+
+
+def test_what_is_told_in_the_unit_of_the_signal_grows_with_it_and_nothing_else_does(pulse_train):
+    signal = pulse_train(LAG, PERIOD, noise=0.3, duration=0.4).signal
+    one, other = (gather_evidence(scale * signal, RATE, {"outer": PERIOD}) for scale in (1.0, 1e3))
+    for name in ("deviation", "unit"):
+        assert getattr(other, name) == pytest.approx(1e3 * getattr(one, name), rel=1e-6)
+    for name in ("sway_unit", "give_unit"):
+        assert getattr(other.mean, name) == pytest.approx(1e3 * getattr(one.mean, name), rel=1e-6)
+    assert other.pairs.features == pytest.approx(one.pairs.features, rel=1e-4, abs=1e-4)
 
 
 def mean_of_passes(whitened, place, weight=None, signal=None):

@@ -204,8 +204,8 @@ def test_nothing_is_said_of_a_record_without_features():
     tested, unjudged = with_unjudged_records()
     for said in tested.verdicts:
         assert set(said.race[unjudged]) == set(said.location[unjudged]) == {REJECTED}
-        assert np.isnan(said.score[unjudged]).all()
-        assert np.isfinite(said.score[~unjudged]).all()
+        assert np.isnan([said.score[unjudged], said.alarm[unjudged]]).all()
+        assert np.isfinite([said.score[~unjudged], said.alarm[~unjudged]]).all()
     assert np.isnan(tested.verdicts[1].probability[unjudged]).all()
     last = record_predictions(tested)[-1].models
     assert np.isnan(last["rule"].score)

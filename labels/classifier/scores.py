@@ -206,9 +206,8 @@ def confusion(truth: Names, said: Names, rows: Sequence[str], columns: Sequence[
 def _starts(quantity: Array, bins: int) -> Array:
     """Lower ends (B,) of so many bins of a `quantity` (N,), but for those that are nearly the one before, as are
     measurements of one speed."""
-    edges = np.unique(np.quantile(quantity, np.linspace(0.0, 1.0, bins + 1)))
-    starts = edges[: max(edges.size - 1, 1)]
-    return starts[np.diff(starts, prepend=-np.inf) > max(NEAR * np.abs(edges).max(), ROUNDING)]
+    starts = np.unique(np.quantile(quantity, np.linspace(0.0, 1.0, bins, endpoint=False)))
+    return starts[np.diff(starts, prepend=-np.inf) > max(NEAR * np.abs(quantity).max(), ROUNDING)]
 
 
 def accuracy_against(

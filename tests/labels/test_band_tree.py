@@ -5,6 +5,7 @@ from labels.band_tree import band_edges, usable_bandwidth
 
 def test_bands_are_a_tree_and_never_narrower_than_asked():
     assert len(band_edges(8000.0, 500.0)) == 15
+    assert len(band_edges(8000.0, 1000.0)) == 15  # eighths are as wide as that
     assert len(band_edges(8000.0, 1500.0)) == 7
     assert band_edges(1000.0, 5000.0).tolist() == [[0.0, 1.0]]
 

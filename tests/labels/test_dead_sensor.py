@@ -12,6 +12,8 @@ def test_a_sensor_without_signal_is_dead():
     assert not is_dead(noise)
     assert not is_dead(np.concatenate([np.zeros(5000), noise]))
     assert is_dead(np.concatenate([noise, [np.nan]]))
+    assert is_dead(np.arange(5000) % 3)
+    assert not is_dead(np.arange(5000) % 4)
 
 
 def test_of_several_axes_the_last_that_lives_is_taken():

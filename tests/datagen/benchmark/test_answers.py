@@ -65,6 +65,11 @@ def test_names_and_probabilities_of_a_function_are_taken_as_they_are():
     np.testing.assert_allclose(class_probability(lambda table: said, ROWS), said)
 
 
+def test_probabilities_that_were_rounded_are_brought_between_0_and_1():
+    said = np.tile([1.0005, -0.0005, 0.0, 0.0, 0.0], (3, 1))
+    assert class_probability(lambda table: said, ROWS).tolist() == [[1.0, 0.0, 0.0, 0.0, 0.0]] * 3
+
+
 @pytest.mark.parametrize(
     "said",
     [
@@ -77,6 +82,8 @@ def test_names_and_probabilities_of_a_function_are_taken_as_they_are():
         np.full((3, 1, 5), 0.2),
         np.full((3, 5), 0.9),
         np.tile([1.4, -0.4, 0.0, 0.0, 0.0], (3, 1)),
+        np.tile([0.5, 0.55, -0.05, 0.0, 0.0], (3, 1)),
+        np.tile([0.95, 0.0, 0.0, 0.0, 0.0], (3, 1)),
         np.full((3, 5), np.nan),
         np.full((3, 5), "healthy"),
         np.array(["healthy", None, "line outer"], dtype=object),  # of kinds that cannot be sorted

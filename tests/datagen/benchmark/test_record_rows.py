@@ -10,7 +10,7 @@ import pytest
 from datagen.benchmark.corpus_rows import read_rows
 from datagen.benchmark.fitness import TOO_SHORT
 from datagen.benchmark.reading_policy import Reading
-from datagen.benchmark.record_rows import RecordFacts, RecordRows, record_rows, signal_rows
+from datagen.benchmark.record_rows import RecordFacts, RecordRows, piece_count, record_rows, signal_rows
 from datagen.benchmark.windows import common_rate, read_windows
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
@@ -57,6 +57,23 @@ def test_a_window_without_signal_leaves_the_vote_to_the_others():
     assert record_rows(np.full((3000, 1), 2.5), labels(), Reading(window=1000 / RATE)) == RecordRows(
         [], RecordFacts(DEAD)
     )
+
+
+@pytest.mark.parametrize(("seconds", "pieces"), [(0.3, 1), (10.0, 1), (10.4, 1), (10.6, 2), (20.0, 2), (20.6, 3)])
+def test_windows_are_hardly_longer_than_the_longest(seconds, pieces):
+    assert piece_count(round(seconds * RATE), RATE, 10.0) == pieces
+
+
+def test_axes_that_hear_the_same_are_trained_in_noise_of_their_own():
+    found = record_rows(np.repeat(shaking(6000), 2, axis=1), labels(), Reading(copies_db=(-18.0, 12.0)))
+    clean, noisy = ([row.values for row in found.rows if row.noisy == wanted] for wanted in (False, True))
+    np.testing.assert_array_equal(clean[0], clean[1])
+    assert not np.array_equal(noisy[0], noisy[len(noisy) // 2])
+
+
+def test_an_axis_without_signal_leaves_the_vote_to_the_others():
+    found = record_rows(np.hstack([np.zeros((3000, 1)), shaking(3000)]), labels(), Reading())
+    assert ([row.axis for row in found.rows], found.facts.reason) == ([1], "")
 
 
 @pytest.mark.parametrize(

@@ -204,12 +204,23 @@ def test_nothing_is_said_of_a_record_without_features():
     tested, unjudged = with_unjudged_records()
     for said in tested.verdicts:
         assert set(said.race[unjudged]) == set(said.location[unjudged]) == {REJECTED}
-        assert np.isnan(said.score[unjudged]).all()
-        assert np.isfinite(said.score[~unjudged]).all()
+        assert np.isnan([said.score[unjudged], said.alarm[unjudged]]).all()
+        assert np.isfinite([said.score[~unjudged], said.alarm[~unjudged]]).all()
     assert np.isnan(tested.verdicts[1].probability[unjudged]).all()
     last = record_predictions(tested)[-1].models
     assert np.isnan(last["rule"].score)
     assert np.isnan(list(last["said"].location_probability.values())).all()
+
+
+def test_a_record_of_a_stopped_machine_is_rejected_whatever_its_lines_and_its_probability():
+    labels, _ = corpus(["outer"])
+    table = np.zeros((1, len(FEATURE_NAMES)))
+    table[0, FEATURE_NAMES.index("outer_strength")] = 2.0
+    rows = CorpusRows(rows_of(table, np.array([0])), {0: RecordFacts("machine stopped")})
+    tested = judge(labels, rows, Model("said", Said([[0.2, 0.8, 0.0, 0.0, 0.0]]), 0.5))
+    for said in tested.verdicts:
+        assert (said.location[0], said.condition[0], said.race[0]) == (REJECTED, REJECTED, "outer")
+        assert np.isfinite([said.score[0], said.alarm[0]]).all()
 
 
 def test_faults_that_nobody_could_judge_are_errors_of_race_but_have_no_rank_and_no_calibration():

@@ -1,8 +1,9 @@
 """Raw windows for estimators that make features of their own."""
 
 import numpy as np
+import pytest
 
-from datagen.benchmark.windows import WINDOW_SAMPLES, cut, read_windows, resampled
+from datagen.benchmark.windows import WINDOW_SAMPLES, common_rate, cut, read_windows, resampled
 from datagen.corpus import Corpus
 
 
@@ -11,6 +12,22 @@ def test_raw_windows_of_any_rate_hold_the_same_tone():
     slow = resampled(tone, 10_000.0, 2000.0)
     np.testing.assert_allclose(slow, np.cos(2.0 * np.pi * 100.0 * np.arange(2000) / 2000.0), atol=1e-9)
     assert [window.size for window in cut(tone)] == [WINDOW_SAMPLES, WINDOW_SAMPLES]
+
+
+@pytest.mark.parametrize(("windows", "kept"), [(1.0, 1), (2.5, 2), (8.0, 8), (30.0, 8)])
+def test_at_most_eight_windows_are_spread_from_the_first_sample_to_the_last(windows, kept):
+    signal = np.arange(windows * WINDOW_SAMPLES)
+    found = cut(signal)
+    assert len(found) == kept
+    assert (found[0][0], found[-1][-1]) == (0.0, signal[-1] if kept > 1 else WINDOW_SAMPLES - 1.0)
+    assert set(np.diff([window[0] for window in found])) <= {
+        (signal.size - WINDOW_SAMPLES) // max(kept - 1, 1) + k for k in (0, 1)
+    }
+
+
+def test_windows_are_no_faster_than_the_bandwidth_asks_for(tiny_corpus):
+    assert common_rate([tiny_corpus], 20_000.0) == 32_768.0
+    assert common_rate([tiny_corpus], 500.0) == 1000.0
 
 
 def test_raw_windows_lie_in_a_file_and_are_those_of_the_records(tiny_corpus):

@@ -10,6 +10,7 @@ from datagen.drawing.work_precision import (
     RINGED,
     draw_work_precision,
 )
+from physics.integrators.rivals.general_purpose import BALL_BY_BALL
 
 
 def test_the_default_is_named_in_the_legend_and_small_errors_are_on_the_panel(small_chart):
@@ -56,3 +57,35 @@ def test_names_in_a_chart_do_not_lie_on_each_other(small_chart):
     assert not any(one.overlaps(other) for k, one in enumerate(boxes) for other in boxes[:k])
     assert not any(box.overlaps(panel.get_window_extent()) for box in boxes)
     assert {"model: impulse train", "model: quasi-static"} <= set(named)
+
+
+def test_target_real_time_and_longest_stable_steps_stand_where_they_are(small_chart):
+    one = small_chart.runs[0]
+    silent = dataclasses.replace(one, name="runge_kutta4", score=None)
+    chart = dataclasses.replace(small_chart, runs=(one, silent), edges={one.name: 50.0, "runge_kutta4": 0.5})
+    with house_style():
+        strip, panel = draw_work_precision(chart).axes
+    lines = [line.get_xydata().tolist() for line in panel.lines]
+    assert [[0.0, 1e-3], [1.0, 1e-3]] in lines  # across the panel
+    assert [[1.0, 0.0], [1.0, 1.0]] in lines
+    assert [line.get_xydata().tolist() for line in strip.lines] == [[[50.0, 0.0]], [[0.5, 1.0]]]
+    assert [text.get_text() for text in panel.get_legend().get_texts()] == [one.name, "runge_kutta4: gave up"]
+    assert [text.get_ha() for text in strip.texts] == ["right", "left"]  # each towards the middle of the panel
+    assert [text.xyann[0] for text in strip.texts] == [-6, 6]
+
+
+def test_what_was_simulated_and_how_long_is_told(small_chart):
+    with house_style():
+        facts = draw_work_precision(small_chart).texts[1].get_text()
+    assert facts.startswith(f"{small_chart.rate:g} Hz, 0.12 s, against {small_chart.reference}; ")
+
+
+@pytest.mark.parametrize(
+    ("name", "marker", "style"), [("SciPy RK45", "^", "--"), (f"SciPy RK45, {BALL_BY_BALL}", "s", ":")]
+)
+def test_solvers_that_see_each_ball_by_itself_are_told_from_those_on_the_kernel(small_chart, name, marker, style):
+    rival = dataclasses.replace(small_chart.runs[0], name=name, group="a library's solver")
+    with house_style():
+        panel = draw_work_precision(dataclasses.replace(small_chart, runs=(rival,), edges={})).axes[1]
+    (line,) = (line for line in panel.lines if line.get_label() == name)
+    assert (line.get_marker(), line.get_linestyle()) == (marker, style)

@@ -12,7 +12,7 @@ import pytest
 from datagen.sizing.aggregation import summarise
 from datagen.sizing.bearing_intervals import mean_with_interval
 from datagen.sizing.scored_record import ScoredRecord
-from datagen.sizing.size_summary import StatedSizes
+from datagen.sizing.size_summary import Seconds, StatedSizes
 from datagen.sizing.tables import stated_sentence, summary_table
 from labels.event_scores import EventScores
 from labels.interval import Interval
@@ -37,6 +37,32 @@ def test_every_table_has_intervals_over_virtual_bearings(scored: Callable[..., S
         assert row.lag_error.high == pytest.approx(0.1 * 120 / 152)
         assert row.arc_error.high == pytest.approx(0.5 * 120 / 152)
         assert row.no_estimate == Interval(0.0, 0.0, 0.0)
+
+
+def test_a_record_stands_in_every_table_by_what_its_name_says(scored: Callable[..., ScoredRecord]) -> None:
+    one = scored(
+        {
+            "extent_spacing": 0.05, "extent_mm": 1.5, "lag": 30.0 / 65_536.0, "speed_rpm": 1800.0, "load_n": 49.0,
+            "race": "inner", "profile": "tukey", "rig": "mill", "snr_db": 21.0,
+        }
+    )  # fmt: skip
+    found = {name: [row.value for row in rows] for name, rows in summarise([one], True).by.items()}
+    assert found == {
+        "noise, dB": ["20"], "size, spacings": ["0.05–0.1"], "size, mm": ["1–2"], "true lag, samples": ["20–50"],
+        "speed, rpm": ["1800–2400"], "load, N": ["0–50"], "race": ["inner"], "profile": ["tukey"], "rig": ["mill"],
+    }  # fmt: skip
+
+
+def test_the_rows_of_a_table_stand_in_order_with_errors_of_their_own(scored: Callable[..., ScoredRecord]) -> None:
+    silent = {"outcome": "no_event_pair", "lag": math.nan, "extent": math.nan}
+    noisy = scored({"record": 1, "snr_db": 0.0, "lag": 0.02}, {"lag": 0.016, "extent": 0.13})
+    rows = summarise([noisy, scored({"record": 2, "snr_db": 0.0}, silent), scored({"snr_db": 99.0})], True).by
+    names = [[row.value for row in rows[name]] for name in ("noise, dB", "true lag, samples")]
+    assert names == [["clean", "0"], ["over 150"]]
+    (_, row) = rows["noise, dB"]
+    assert (row.records, row.no_estimate.value) == (2, 0.5)
+    assert (row.lag_error.value, row.lag_error_median) == pytest.approx((0.2, 0.2))
+    assert (row.arc_error.value, row.arc_error_median) == pytest.approx((0.3, 0.3))
 
 
 def test_the_rules_to_compare_with_have_their_own_errors(scored: Callable[..., ScoredRecord]) -> None:
@@ -114,6 +140,11 @@ def test_records_of_unknown_bearings_are_drawn_one_by_one(scored: Callable[..., 
     assert pair == Interval(0.5, 0.0, 1.0)
 
 
+def test_each_value_is_of_the_bearing_of_its_own_record(scored: Callable[..., ScoredRecord]) -> None:
+    records = [scored({"bearing_id": bearing}) for bearing in ("a", "a", "b")]
+    assert mean_with_interval([math.nan, 0.0, 1.0], records) == Interval(0.5, 0.0, 1.0)
+
+
 @pytest.mark.parametrize(("bearing", "count"), [("b", 9), ("unknown", 1)])
 def test_one_bearing_alone_gives_a_mean_no_interval(
     scored: Callable[..., ScoredRecord], bearing: str, count: int
@@ -166,6 +197,63 @@ def test_silence_where_there_is_no_event_is_met_from_95_per_cent_up(
     records = [scored(nothing, unsized if k < silent else {}) for k in range(40)]
     (figure,) = [one for one in summarise(records, True).figures if one.name.startswith("abstention")]
     assert (figure.mean.value, figure.count, figure.met) == (pytest.approx(silent / 40), 40, met)
+
+
+@pytest.mark.parametrize("load_known", [True, False])
+def test_the_targets_are_those_that_were_set(scored: Callable[..., ScoredRecord], load_known: bool) -> None:
+    levels = [scored({"record": k, "snr_db": snr}) for k, snr in enumerate((99.0, 20.0, 10.0))]
+    eventless = scored({"record": 9, "lag": math.nan}, {"lag": math.nan, "extent": math.nan})
+    figures = summarise([*levels, eventless], load_known).figures
+    arcs = {"arc error, clean": "≤ 0.1", "arc error, 10 dB": "≤ 0.15"} if load_known else {}
+    assert {figure.name: figure.target for figure in figures if figure.target} == arcs | {
+        "lag error, clean": "≤ 0.05",
+        "lag error, 10 dB": "≤ 0.1",
+        "no estimate, clean": "≤ 0.05",
+        "abstention where there is no event": "≥ 0.95",
+        "90 % interval of the lag holds the truth": "0.85 to 0.95",
+        "90 % interval of the arc holds the truth": "0.85 to 0.95",
+    }
+
+
+@pytest.mark.parametrize(("silent", "met"), [(1, True), (2, False)])
+def test_a_share_as_large_as_its_target_meets_it(scored: Callable[..., ScoredRecord], silent: int, met: bool) -> None:
+    nothing = {"outcome": "no_event_pair", "lag": math.nan, "extent": math.nan}
+    records = [scored({"record": k, "snr_db": 99.0}, nothing if k < silent else {}) for k in range(20)]
+    (figure,) = (one for one in summarise(records, True).figures if one.name == "no estimate, clean")
+    assert (figure.mean.value, figure.met) == (pytest.approx(silent / 20.0), met)
+
+
+@pytest.mark.parametrize(
+    ("interval", "share", "count"),
+    [((0.004, 0.005), 1.0, 1), ((0.003, 0.004), 1.0, 1), ((0.0041, 0.005), 0.0, 1), ((0.003, math.nan), math.nan, 0)],
+)
+def test_an_interval_holds_its_ends(
+    scored: Callable[..., ScoredRecord], interval: tuple[float, float], share: float, count: int
+) -> None:
+    figures = summarise([scored(answer={"lag_interval": interval})], True).figures
+    (figure,) = (one for one in figures if one.name == "90 % interval of the lag holds the truth")
+    assert (figure.mean.value, figure.count) == (pytest.approx(share, nan_ok=True), count)
+
+
+def test_the_first_record_does_not_count_for_the_longest_time(scored: Callable[..., ScoredRecord]) -> None:
+    records = [scored({"record": k}, {"seconds": seconds}) for k, seconds in enumerate((5.0, 0.1, 0.3))]
+    assert summarise(records, True).seconds_per_record == Seconds(pytest.approx(1.8), 0.3)
+    assert math.isnan(summarise(records[:1], True).seconds_per_record.largest_after_first)
+
+
+def test_precision_is_of_what_was_found_and_recall_of_what_is_true(scored: Callable[..., ScoredRecord]) -> None:
+    heard = {"events_in_time": EventScores(8, 16, 10), "events_in_arc": EventScores(4, 16, 10)}
+    records = [scored({"record": k, "bearing_id": str(k)}, **heard) for k in range(3)]
+    silent = scored({"bearing_id": "s"}, {"extent": math.nan}, events_in_time=BAD, events_in_arc=BAD)
+    events = summarise(records, True).events
+    answered = summarise([*records, silent], True).events
+    for name, matched in (("within_100_us", 8.0), ("within_0.5_degrees", 4.0)):
+        found = events[name]
+        assert answered[f"{name}, answered records"] == found
+        assert answered[name].recall.value == pytest.approx(3.0 * matched / 40.0)
+        shares = (matched / 16.0, matched / 10.0, 2.0 * matched / 26.0)
+        for share, expected in zip((found.precision, found.recall, found.f1), shares, strict=True):
+            assert astuple(share) == pytest.approx((expected,) * 3)  # the same of every bearing
 
 
 @pytest.mark.parametrize(("error", "met"), [(0.0, True), (0.04, True), (0.06, False)])

@@ -6,9 +6,10 @@ import math
 from collections.abc import Callable
 
 import pytest
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from datagen.drawing.size_report import draw_size_report
+from datagen.drawing.size_report import draw_size_report, most_frequent
 from datagen.drawing.style import house_style
 from datagen.sizing.aggregation import summarise
 from datagen.sizing.scored_record import ScoredRecord
@@ -34,6 +35,69 @@ def test_the_names_below_the_bars_do_not_lie_on_each_other(rigs: int, scored: Ca
     assert panel.get_title(loc="left") == ("Rig (records, 8 of 13)" if rigs > 8 else "Rig (records)")
     low, high = panel.get_xlim()
     assert low + high == pytest.approx(min(rigs, 8) - 1)  # the bars stand in the middle
+
+
+def test_each_panel_shows_what_its_title_and_axes_say(scored: Callable[..., ScoredRecord]) -> None:
+    clean = scored(
+        {"snr_db": 99.0, "lag": 0.004, "extent": math.radians(5.0)},
+        {"lag": 0.005, "extent": math.radians(6.0), "lag_arc": math.radians(1.0), "trust": 0.92},
+        envelope_arc=math.radians(8.0),
+        static_arc=math.radians(4.0),
+    )
+    noisy = scored({"record": 1, "lag": 0.008, "extent": 0.1}, {"lag": 0.006, "extent": 0.12, "trust": 0.92})
+    silent = scored({"record": 2}, {"lag": math.nan, "extent": math.nan, "trust": 0.92})
+    long = scored({"record": 3, "extent_spacing": 1.4, "extent": 0.6}, {"extent": 0.1})  # is not scored
+    healthy = scored({"record": 4, "lag": math.nan}, {"lag": math.nan, "extent": math.nan, "trust": 0.12})
+    lags, extents, rules, noise, trust, *_ = drawn([clean, noisy, silent, long, healthy]).axes
+    for panel, scale, what, unit in ((lags, 1e3, "lag", "ms"), (extents, 180.0 / math.pi, "extent", "degrees")):
+        shown = {str(line.get_label()): line.get_xydata().tolist() for line in panel.lines}
+        for name, record in (("clean", clean), ("noisy", noisy)):
+            pair = [scale * getattr(of, what) for of in (record.truth, record.answer)]
+            assert shown[name] == [pytest.approx(pair)]
+        (even,) = (line for line in panel.lines if line.get_label() not in shown.keys() & {"clean", "noisy"})
+        assert list(even.get_xdata()) == list(even.get_ydata())
+        assert (panel.get_xlabel(), panel.get_ylabel()) == (f"true, {unit}", f"estimated, {unit}")
+    assert heights(rules) == {
+        "this estimator": pytest.approx([0.2, 0.2]),
+        "full size, own lag": pytest.approx([0.8, 0.2]),
+        "half size, own lag": pytest.approx([0.6, 0.6]),
+        "plain envelope lag": pytest.approx([0.6, 0.5]),
+        "own lag and static release": pytest.approx([0.2, 0.0]),
+    }
+    assert noise.get_title(loc="left") == "Noise, dB (records)"
+    assert [label.get_text() for label in noise.get_xticklabels()] == ["clean\n(1)", "10\n(2)"]
+    assert heights(noise) == {
+        "lag": pytest.approx([0.25, 0.25]),
+        "arc": pytest.approx([0.2, 0.2]),
+        "no estimate, share": pytest.approx([0.0, 0.5]),
+    }
+    filled = {str(patch.get_label()): {round(x, 2) for x, y in patch.get_xy() if y > 0.0} for patch in trust.patches}
+    assert filled == {"no event": {0.1, 0.15}, "to be given a size": {0.9, 0.95}}  # the ends of one bin each
+
+
+def test_a_rule_that_says_nothing_of_some_records_is_judged_by_the_others(scored: Callable[..., ScoredRecord]) -> None:
+    records = [scored({"record": 1}, static_arc=math.nan), scored({"record": 2}, static_arc=0.14)]
+    assert heights(drawn(records).axes[2])["own lag and static release"] == pytest.approx([0.4])
+
+
+def test_of_too_many_rows_those_of_the_most_records_are_kept_in_their_order(
+    scored: Callable[..., ScoredRecord],
+) -> None:
+    records = [scored({"record": k, "rig": rig}) for k, rig in enumerate("abbccddeeffgghhjjkk")]
+    rows = summarise(records, True).by["rig"]
+    assert [row.value for row in most_frequent(rows)] == list("bcdefghj")
+
+
+def test_the_bars_of_a_value_stand_round_its_name(scored: Callable[..., ScoredRecord]) -> None:
+    panel = drawn([scored()]).axes[3]
+    middles = [bar.get_x() + 0.5 * bar.get_width() for bars in panel.containers for bar in bars]
+    assert middles == pytest.approx([-0.27, 0.0, 0.27])
+    assert panel.get_xticks().tolist() == [0]
+
+
+def heights(panel: Axes) -> dict[str, list[float]]:
+    """The heights of all bars of a panel by their name in the legend."""
+    return {str(bars.get_label()): [bar.get_height() for bar in bars] for bars in panel.containers}
 
 
 def titles(figure: Figure) -> list[str]:

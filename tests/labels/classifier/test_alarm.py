@@ -103,8 +103,8 @@ def test_lines_as_high_as_few_healthy_records_have_are_an_alarm_by_themselves():
     table[noisy, column] += 100.0  # what noise was added to says nothing of it
     alarm = fit_alarm(probability, table, owner, noisy, ONE_AXIS[: owner.size], 0.05)
     assert np.mean(height > np.log(alarm.height)) == pytest.approx(0.02, abs=1e-3)  # one record is a step of 1e-3
-    found = alarm.height * np.array([[0.99, 0.5], [0.5, 1.01], [np.nan, np.nan]])
-    assert alarm.by_lines_alone(found).tolist() == [False, True, False]
+    found = alarm.height * np.array([[0.99, 0.5], [0.5, 1.01], [np.nan, np.nan], [1.0, 0.5]])
+    assert alarm.by_lines_alone(found).tolist() == [False, True, False, False]
     assert not Alarm(0.5, 0.9).by_lines_alone(found).any()
 
 

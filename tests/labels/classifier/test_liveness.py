@@ -105,6 +105,9 @@ def test_the_velocity_of_a_tone_is_its_acceleration_over_its_frequency():
 def test_the_velocity_is_without_hum():
     hum = 0.5 * np.cos(2.0 * np.pi * 100.0 * TIME) + 1e-6 * np.random.default_rng(3).standard_normal(TIME.size)
     assert found(hum).velocity < 1e-6  # of 0.8 mm/s
+    time = np.arange(80_000) / RATE  # components 0.25 Hz apart, and mains 0.16 % off
+    hum = np.cos(2.0 * np.pi * 16.0 * 50.08 * time) + 1e-6 * np.random.default_rng(3).standard_normal(time.size)
+    assert found(hum).velocity < 1e-6
 
 
 def test_one_line_at_the_speed_of_the_shaft_is_no_turning_shaft_and_two_are():
@@ -116,7 +119,42 @@ def test_one_line_at_the_speed_of_the_shaft_is_no_turning_shaft_and_two_are():
     assert found(noise + one + other).reason == ""
 
 
-def test_a_digit_is_the_smallest_step_of_the_recorder_whatever_larger_ones_there_are():
+def test_a_digit_is_the_smallest_step_of_the_recorder_though_it_comes_once():
     signal = 0.01 * np.round(rushing() / 0.01)
     signal[100] = 500.0
+    signal = np.append(2.0 * signal, 0.01)
     assert found(signal).digits == pytest.approx(signal.std() / 0.01, rel=1e-6)  # differences of rounded values
+
+
+@pytest.mark.parametrize(("order", "harmonics"), [(KNOWN.bpfo, (1, 2)), (KNOWN.bpfi, (1, 2)), (1.0, (4, 5))])
+def test_passing_balls_and_higher_harmonics_show_a_turning_shaft_too(order, harmonics):
+    noise = 5e-3 * np.random.default_rng(0).standard_normal(TIME.size)
+    passing = sum(5e-3 * np.cos(2.0 * np.pi * order * KNOWN.shaft_hz * k * TIME) for k in harmonics)
+    assert found(noise + passing).evidence > TURNING_EVIDENCE
+
+
+@pytest.mark.parametrize(("frequency", "counts"), [(8.0, False), (13.0, True), (990.0, True), (1010.0, False)])
+def test_the_velocity_is_that_from_10_hz_to_1_khz(frequency, counts):
+    tone = np.cos(2.0 * np.pi * frequency * TIME)
+    noise = 1e-6 * np.random.default_rng(3).standard_normal(TIME.size)
+    share = found(tone + noise).velocity / (1.0 / (2.0 * np.pi * frequency) / np.sqrt(2.0))
+    assert share > 0.9 if counts else share < 0.01
+
+
+@pytest.mark.parametrize(("digits", "reason"), [(1.5, STOPPED), (3.0, "")])
+def test_white_noise_of_fewer_than_two_digits_is_the_recorders(digits, reason):
+    # As velocity it is far from still: 0.5 mm/s for a standard deviation of 1 m/s².
+    noise = np.round(digits * np.random.default_rng(4).standard_normal(TIME.size))
+    assert found(noise).reason == reason
+
+
+@pytest.mark.parametrize(("turns", "reason"), [(14.0, ""), (16.0, STOPPED)])
+def test_fifteen_turns_without_a_line_are_enough(turns, reason):
+    known = bearing_kinematics(16, 71.5e-3, 8.407e-3, 0.2648, 2.0 * turns)  # in half a second
+    assert found(5e-3 * np.random.default_rng(0).standard_normal(TIME.size // 2), known=known).reason == reason
+
+
+def test_what_a_recorder_does_not_let_through_is_no_colour():
+    spectrum = np.fft.rfft(np.random.default_rng(5).standard_normal(TIME.size))
+    spectrum[:700], spectrum[8000:] = 0.0, 0.0  # of 9500 components that are looked at
+    assert abs(found(np.fft.irfft(spectrum, TIME.size)).colour) < WHITE

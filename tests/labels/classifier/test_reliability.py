@@ -35,3 +35,13 @@ def test_a_certainty_is_of_the_last_bin():
     curve = reliability(np.array([True, False, True]), np.array([1.0, 0.05, 0.95]))
     assert curve["records"] == [1.0, 2.0]
     assert curve["predicted"] == pytest.approx([0.05, 0.975])
+
+
+def test_of_a_bin_the_mean_of_what_was_predicted_weighs_like_that_of_what_was_there():
+    curve = reliability(np.array([True, False]), np.array([0.41, 0.49]), np.array([3.0, 1.0]))
+    assert (curve["predicted"], curve["observed"]) == (pytest.approx([0.43]), pytest.approx([0.75]))
+    assert (curve["records"], curve["weight"]) == ([2.0], [4.0])
+
+
+def test_without_records_there_is_no_error_of_calibration():
+    assert np.isnan(calibration_error(np.zeros(0, dtype=bool), np.zeros(0)))

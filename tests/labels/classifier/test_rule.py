@@ -36,6 +36,7 @@ def test_it_names_the_higher_family_and_only_above_the_threshold():
     rule = Rule(1.0)
     assert rule.locations(np.array([[5.0, 2.0], [2.0, 7.0], [0.9, 0.8]])).tolist() == ["outer", "inner", "none"]
     assert rule.races(np.array([[0.9, 0.8]])).tolist() == ["outer"]
+    assert rule.locations(np.array([[1.0, 0.5]])).tolist() == ["none"]  # as high as the threshold is not above it
 
 
 def test_of_two_axes_the_one_with_the_higher_lines_counts_twice_for_both_races():
@@ -44,6 +45,8 @@ def test_of_two_axes_the_one_with_the_higher_lines_counts_twice_for_both_races()
     # 8 counts twice and 1 once: the cube root of 8 · 8 · 1, and beside it of 1 · 1 · 2.
     expected = np.array([[4.0, 3.0], [4.0, 2.0 ** (1.0 / 3.0)], [np.nan, np.nan]])
     np.testing.assert_allclose(line_heights(table, owner, np.array([6, 4, 5]), axis), expected)
+    other = line_heights(rows([2.0, 1.0], [1.0, 16.0]), owner[:2], np.array([4]), axis[:2])
+    np.testing.assert_allclose(other, [[2.0 ** (1.0 / 3.0), 256.0 ** (1.0 / 3.0)]])  # here the second says most
     halved = line_heights(table, owner, np.array([6, 4, 5]), axis, of_several=2.0)
     np.testing.assert_allclose(halved, expected * [[1.0], [0.5], [1.0]])
 

@@ -95,6 +95,27 @@ def test_draws_of_one_recording_do_not_count_as_recordings():
     assert grouped.high - grouped.low > 2.5 * (independent.high - independent.low)
 
 
+def test_a_difference_is_by_how_much_the_first_answer_is_better():
+    truth = np.array(["a"] * 40)
+    assert paired_difference(accuracy, truth, truth, np.array(["a", "b"] * 20)).value == 0.5
+
+
+def test_draws_without_a_score_leave_the_interval_to_the_others():
+    positive, score = np.array([True, True, False, False]), np.array([3.0, 1.0, 2.0, 0.0])
+    found = bootstrap(area_under_roc, positive, score)  # one draw in eight is of one side alone
+    assert 0.0 <= found.low < found.value < found.high <= 1.0
+    never = bootstrap(area_under_roc, positive[:2], score[:2])
+    assert all(map(math.isnan, (never.value, never.low, never.high)))
+
+
+def test_a_group_belongs_to_the_stratum_of_its_first_row():
+    # The first group is of a, though it ends in b, so the third is drawn alone of b, once in every draw.
+    groups, strata = np.array([1, 1, 2, 2, 3, 3]), np.array(["a", "b", "a", "a", "b", "b"])
+    drawn = []
+    bootstrap(lambda group: drawn.append(int((group == 3).sum())) or 0.0, groups, strata=strata, groups=groups)
+    assert set(drawn[:-2]) == {2}
+
+
 def test_groups_are_drawn_within_their_strata_wherever_their_rows_lie():
     truth = np.array(["a", "b"] * 30)
     groups = np.tile(["a1", "b1", "a2", "b2", "a3", "b3"], 10)
@@ -137,6 +158,8 @@ def test_the_confusion_counts_rows_of_truth():
         ([1771.9, 1772.3] * 6, [1772.1]),
         ([900.0] * 6 + [1771.9, 1772.1, 1772.3] * 2, [900.0, 1772.2]),  # the lowest of the three fall to the bin before
         ([1730.0, 1750.0, 1772.0, 1797.0] * 3, [1730.0, 1750.0, 1784.5]),
+        ([900.0, 1772.0] * 6, [900.0, 1772.0]),  # the largest value has a bin of its own where it fills one
+        ([900.0] * 4 + [1200.0] * 4 + [1772.0] * 4, [900.0, 1200.0, 1772.0]),
     ],
 )
 def test_values_that_are_nearly_the_same_share_a_bin(speeds, places):

@@ -3,9 +3,12 @@
 import numpy as np
 import pytest
 from sklearn.base import clone
+from sklearn.tree import DecisionTreeClassifier
 
+from labels.classifier.alarm import fit_alarm
 from labels.classifier.classes import CLASSES, called, condition_probability, joint_class, location_probability
 from labels.classifier.learners import LEARNERS, learner
+from labels.classifier.log_odds import logit
 from labels.classifier.reliability import calibration_error, equal_priors
 from labels.classifier.spall_classifier import RISING, SpallClassifier
 from labels.classifier.stage import Stage
@@ -181,3 +184,51 @@ def test_more_false_alarms_are_made_where_more_are_allowed():
     unseen, truth, _ = made_up(2000, 3)
     called = [np.mean(model.predict(unseen[truth == "healthy"]) != "healthy") for model in (strict, lenient)]
     assert called[1] > called[0] + 0.05  # 2 and, where nothing tells clear records from noise, 20 % of 80 rows set it
+
+
+def test_the_alarm_is_set_on_what_is_said_of_bearings_that_were_not_learned_from(monkeypatch):
+    """A tree that knows every row by heart is sure of each of them, and wrong of one in some others."""
+    by_heart = DecisionTreeClassifier(random_state=0)
+    monkeypatch.setattr("labels.classifier.spall_classifier.learner", lambda *_: by_heart)
+    model = SpallClassifier().fit(*made_up(400, 1, shift=1.5))
+    unseen, truth, _ = made_up(2000, 3, shift=1.5)
+    healthy = unseen[truth == "healthy"]
+    assert np.mean(model.predict_proba(healthy)[:, 0] < 0.5) > 0.15
+    assert np.mean(model.predict(healthy) != "healthy") < 0.1
+
+
+def test_the_alarm_is_set_on_healthy_rows_with_their_records_noise_and_axes(monkeypatch):
+    given = []
+
+    def kept(*arguments):
+        given.extend(arguments)
+        return fit_alarm(*arguments)
+
+    monkeypatch.setattr("labels.classifier.spall_classifier.fit_alarm", kept)
+    table, classes, groups = made_up(200, 1)
+    records, noisy, axes = np.arange(200) // 4 + 7, np.arange(200) % 3 == 1, np.arange(200) % 7
+    model = SpallClassifier("logistic", false_alarms=0.07).fit(table, classes, groups, records, noisy, axes)
+    healthy = classes == "healthy"
+    expected = (model.spall_.held_out, table, records, noisy, axes)
+    for found, every in zip(given[:5], expected, strict=True):
+        np.testing.assert_array_equal(found, every[healthy])
+    assert given[5] == 0.07
+
+
+def test_noise_blurs_no_answer_of_the_three():
+    table, classes, groups = made_up(400, 6)
+    blind = np.random.default_rng(7).standard_normal((800, len(FEATURE_NAMES)))
+    given = np.concatenate([table, blind]), np.tile(classes, 3), np.tile(groups, 3)
+    unseen, _, _ = made_up(1000, 8)
+    sure = []
+    for noisy in (np.arange(1200) >= 400, np.zeros(1200, dtype=bool)):
+        probability = SpallClassifier("logistic").fit(*given, noisy=noisy).predict_proba(unseen)
+        spall = 1.0 - probability[:, 0]
+        parts = (
+            spall,
+            location_probability(probability)[:, 2] / spall,
+            condition_probability(probability)[:, 2] / spall,
+        )
+        sure.append([np.abs(logit(part)).mean() for part in parts])
+    # Calibrated on rows of noise too, in which nothing is seen, each would be far too careful.
+    assert np.all(np.array(sure[0]) > 1.5 * np.array(sure[1]))

@@ -14,6 +14,13 @@ def test_rows_of_a_record_agree_on_the_geometric_mean_of_their_probabilities():
     assert np.isnan(found[2]).all()
 
 
+def test_a_row_that_is_certain_has_no_veto():
+    # What is thought impossible counts as 1e-6.
+    found = joined(np.array([[0.0, 1.0], [0.9, 0.1]]), np.array([7, 7]), np.array([7]))
+    odds = np.sqrt(1e-6 * 0.9) / np.sqrt(0.1)
+    assert found[0] == pytest.approx([odds / (1.0 + odds), 1.0 / (1.0 + odds)])
+
+
 def test_other_values_are_averaged_as_they_are():
     found = averaged(np.array([9.0, 2.0, 1.0]), np.array([7, 8, 7]), np.array([8, 7, 9]))
     assert found == pytest.approx([2.0, 5.0, np.nan], nan_ok=True)

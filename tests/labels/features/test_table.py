@@ -104,6 +104,7 @@ def test_the_narrowest_band_holds_three_harmonics_of_either_race():
         analysis = analyse(np.random.default_rng(0).standard_normal(20_000), 20_000.0, KNOWN.at(shaft_hz))
         widths = np.diff(analysis.envelopes.edges[1:], axis=1) * analysis.record.bandwidth
         assert widths.min() >= 3.0 * KNOWN.bpfi * shaft_hz
+    assert 0.5 * widths.min() < 3.5 * KNOWN.bpfi * shaft_hz  # half as wide they would be too narrow
 
 
 def test_a_line_of_the_bearing_is_no_decoy():

@@ -1,11 +1,13 @@
 """Columns of pairs by name, on a mean pass whose energy, waveform, sway and displacement are known everywhere."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from labels.spall_size.columns.choice import LEADING
+from labels.spall_size.columns.choice import measure as choose
 from labels.spall_size.columns.table import (
     LEADING_COLUMNS,
     LEADING_COLUMNS_WITH_LOAD,
@@ -131,6 +133,114 @@ def test_a_step_of_the_sway_slopes_by_its_height_over_the_blur_that_hides_it(col
     assert columns["entry_sway_level_2"] == pytest.approx(0.25 + 1.5 * 0.4 * 0.25, abs=0.03)
 
 
+def pair_of(mean, entry, leave):
+    """Every column by name of the pair of an event at `entry` and one at `leave`."""
+    view = all_pairs(mean, np.array([entry, leave]), FACTS)
+    return dict(zip(PAIR_COLUMNS, pair_rows(view)[view.entry.tolist().index(entry)], strict=True))
+
+
+# Middles of windows, samples from an event 100 samples beside the other one.
+LEVELS = {
+    "core_all": 0.0, "before_all": -28.0, "after_middle": 28.0, "just_before_low": -4.0, "just_after_high": 4.0,
+}  # fmt: skip
+OVER_CORE = {"3": 2.2, "6": 4.5, "12": 9.0, "24": 18.0, "48": 36.0, "96": 72.0, "0.1_periods": 26.0,
+             "0.25_periods": 70.0}  # fmt: skip
+
+
+@pytest.mark.parametrize(("event", "place"), [("entry", -100.0), ("exit", 0.0)])
+def test_every_window_lies_where_its_name_says(event, place):
+    """On energy that grows evenly from sample to sample the mean tells where the middle of a window lies."""
+    growing = replace(known_pass(), energy=1000.0 + np.arange(-440.0, 441.0) * np.ones((4, 1)))
+    row, core = pair_of(growing, -100.0, 0.0), 1000.0 + place
+    found = {name: math.exp(row[f"{event}_{name}"]) - core for name in LEVELS}
+    assert found == pytest.approx(LEVELS, abs=1e-5)
+    for side, sign in (("before", -1.0), ("after", 1.0)):
+        found = {name: sign * core * math.expm1(row[f"{event}_{side}_{name}"]) for name in OVER_CORE}
+        assert found == pytest.approx(OVER_CORE, abs=1e-5)
+    for reach, middle in ((3, 2.0), (12, 6.5), (48, 24.5)):
+        assert row[f"{event}_low_step_{reach}"] == pytest.approx(math.log((core + middle) / (core - middle)))
+
+
+def test_beside_events_side_by_side_a_window_reaches_two_samples_beyond_the_core():
+    growing = replace(known_pass(), energy=1000.0 + np.arange(-440.0, 441.0) * np.ones((4, 1)))
+    # Half a lag would be two samples; the core reaches one, and a sample lies between.
+    assert math.exp(pair_of(growing, -4.0, 0.0)["exit_before_all"]) == pytest.approx(1000.0 - 2.5)
+
+
+def test_what_else_there_is_is_told_over_the_weaker_event():
+    known = known_pass()
+    energy = np.ones((4, known.offset.size))
+    for place, height in ((-80, 1000.0), (320, 1000.0), (0, 50.0), (400, 50.0), (-40, 7.0), (200, 9.0), (-200, 9.0)):
+        energy[:, np.abs(known.offset - place) < 2] = height
+    wave = 1.0 * (known.offset == -80) - 2.0 * (known.offset == 0)
+    row = pair_of(replace(known, energy=energy, waveform=wave), -80.0, 0.0)
+    weaker = math.log((3.0 * 50.0 + 6.0) / 9.0)
+    assert (row["inside"], row["outside"]) == pytest.approx((math.log(7.0) - weaker, math.log(9.0) - weaker))
+    # Of seven samples round an event three hold its energy.
+    expected = [math.log(1.0 / 3004.0), math.log(4.0 / 154.0)]
+    assert [row["entry_coherence"], row["exit_coherence"]] == pytest.approx(expected)
+
+
+def test_what_lies_beyond_the_end_of_the_mean_pass_is_looked_for_a_period_earlier():
+    known = known_pass()
+    energy = np.ones((4, known.offset.size))
+    energy[:, known.offset == 70] = 9.0  # 470 is beyond the last offset, 440
+    row = pair_of(replace(known, energy=energy), 100.0, 180.0)
+    assert row["outside"] == pytest.approx(math.log(9.0))
+
+
+def test_between_events_side_by_side_there_is_nothing():
+    known = replace(known_pass(), energy=np.ones((4, 881)))
+    assert pair_of(known, -3.0, 0.0)["inside"] == pytest.approx(-9.0)
+
+
+@pytest.mark.parametrize(
+    ("entry", "leave", "alike"),
+    [
+        ({0: 1.0}, {2: 1.0}, 1.0),
+        ({0: 1.0}, {3: 1.0}, 0.0),
+        ({0: 1.0, 7: 1.0}, {0: 1.0, -7: 1.0}, 0.5),
+        ({0: 1.0, 2: 1.0}, {0: -1.0, 2: -1.0}, -1.0),
+    ],
+)
+def test_waves_are_compared_over_eight_samples_shifted_by_up_to_two(entry, leave, alike):
+    known = known_pass()
+    wave = np.zeros(known.offset.size)
+    for place, heights in ((-100, entry), (0, leave)):
+        for away, height in heights.items():
+            wave[known.offset == place + away] = height
+    row = pair_of(replace(known, waveform=wave), -100.0, 0.0)
+    assert row["alike"] == pytest.approx(alike, abs=1e-9)
+
+
+def test_sway_is_averaged_up_to_half_a_lag_behind_the_exit_and_up_to_the_next_entry_at_most():
+    known = known_pass()
+    turn = 2.0 * math.pi / PERIOD
+    wave = np.sin(turn * (known.offset + 0.5))  # a running sum counts a sample from its place to the next
+    swaying = replace(known, sway=wave, give=np.sin(turn * known.offset))
+
+    def mean(first, last):
+        return (math.cos(turn * first) - math.cos(turn * last)) / turn / (last - first)
+
+    short, long, late = pair_of(swaying, -30.0, 30.0), pair_of(swaying, -150.0, 150.0), pair_of(swaying, 150.0, 50.0)
+    assert short["sway_after"] == pytest.approx(mean(30.0, 60.0), abs=1e-3)
+    assert long["sway_after"] == pytest.approx(mean(150.0, 250.0), abs=1e-3)  # where 1.5 lags would reach to 300
+    assert late["sway_after"] == pytest.approx(mean(450.0, 550.0), abs=1e-3)
+    places = [late["give_at_entry"], late["give_inside"], late["give_at_exit"]]
+    assert places == pytest.approx([math.sin(turn * place) for place in (150.0, 300.0, 450.0)], abs=1e-9)
+
+
+def test_no_pass_in_effect_counts_as_one():
+    assert pair_of(replace(known_pass(), passes=0.0), ENTRY, EXIT)["passes"] == 0.0
+
+
+def test_the_core_of_an_event_is_three_samples_at_least():
+    known = known_pass()
+    sharp = np.where(np.isin(known.offset, [-10, 0]), 301.0, 1.0) * np.ones((4, 1))
+    row = pair_of(replace(known, energy=sharp), -10.0, 0.0)
+    assert (row["entry_core_all"], row["exit_core_low"]) == pytest.approx((math.log(101.0), math.log(101.0)))
+
+
 def test_pairs_of_an_event_with_itself_a_pass_later_are_none():
     # Places 6 samples apart: the way round is 394 of 400 samples, more than 0.97 periods.
     view = all_pairs(known_pass(), np.array([-6.0, 0.0, 100.0]), FACTS)
@@ -179,6 +289,20 @@ def test_rivals_are_the_best_pairs_that_say_something_else():
     assert found["near_apart"][:2] == pytest.approx([near, 0.0])
 
 
+def test_lags_within_3_per_cent_are_the_same_and_within_35_may_mean_the_same_events():
+    found = leading(BLIND, [100.0, 105.0, 145.0, 90.0], [0.8, 0.6, 0.4, -0.5])
+    rivals = [found[f"rival_{k}_score"][0] for k in (1, 2, 3)]
+    assert rivals == [0.6, 0.4, -0.5]
+    # 145 lies farther off, and a pair of a score below 0 says nothing.
+    assert found["near_apart"][0] == pytest.approx(0.36 * math.log(1.05) / (0.64 + 0.36))
+
+
+@pytest.mark.parametrize(("rank", "middle"), [((0.05, 0.0), 0.0), ((0.0, 0.0), 0.5 * math.log(1.1))])
+def test_ranks_weigh_by_their_squares_and_alike_where_all_are_nothing(rank, middle):
+    found = choose(np.array([100.0, 110.0]), np.array(rank))
+    assert found["ranked_near_apart"] == pytest.approx(middle, abs=1e-6)
+
+
 def test_a_pair_knows_how_long_its_spall_would_be():
     found = leading(BLIND, [LAG], [1.0])
     arc = LAG / PERIOD * 2.0 * math.pi / 12.0  # a fifth of a ball spacing
@@ -205,6 +329,11 @@ def test_load_tells_what_size_of_jump_to_expect():
     assert found["pressed"] == pytest.approx([math.log(pressed / 4e-3)], abs=0.01)
     assert found["give_over_pressed"] == pytest.approx([math.log(3.0 / 65536.0**2 / pressed)], abs=0.01)
     assert np.expm1(found["released"]) == pytest.approx(np.exp(found["release"]))
+    # Half of that arc of the inner race, of 16 mm radius, and a ball of 4 mm has dropped by what it was pressed.
+    half = float(np.exp(found["release"][0])) * LAG / PERIOD * math.pi / 12.0
+    lever = 16e-3 * math.sin(half)
+    drop = 4e-3 - math.sqrt(4e-3**2 - lever**2) + 16e-3 * (1.0 - math.cos(half))
+    assert drop == pytest.approx(pressed, rel=0.01)
 
 
 def test_the_chosen_pair_is_that_of_the_best_rank_and_knows_the_others():

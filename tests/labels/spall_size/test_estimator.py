@@ -25,18 +25,20 @@ RATE, PERIOD = 1000.0, 100.0
 @pytest.fixture
 def judging(saying):
     """A maker of estimators that expect the same doubt and correct by the same factors whatever they see; every lag
-    gets an interval of a factor of 1.5."""
+    gets an interval of a factor of 1.5, every arc one of 1.25."""
 
     def make(doubt, lag_factor, arc_factor):
-        spread = saying(math.log(1.5) - SMALLEST_SPREAD)
-        lag, arc = (Guess(saying(math.log(factor)), spread, 1.0) for factor in (lag_factor, arc_factor))
+        lag, arc = (
+            Guess(saying(math.log(factor)), saying(math.log(spread) - SMALLEST_SPREAD), 1.0)
+            for factor, spread in ((lag_factor, 1.5), (arc_factor, 1.25))
+        )
         judgement = Judgement(saying(0.5), lag, arc, saying(doubt), 0.4)
         return SizeEstimator(Calibration(saying(0.5), judgement, judgement))
 
     return make
 
 
-def one_pair(entry, lag):
+def one_pair(entry, lag, race="outer"):
     """Evidence of a single pair of events on an even mean pass, heard in two of three passes."""
     offset = np.arange(-110, 111)
     flat = np.zeros(offset.size)
@@ -44,7 +46,7 @@ def one_pair(entry, lag):
     pairs = Pairs(np.array([entry]), np.array([entry + lag]), np.array([lag]), np.zeros((1, len(PAIR_COLUMNS))))
     place = np.array([200.0, 300.0, 400.0])
     track = PassTrack(place / RATE, PERIOD / RATE, np.zeros(256), 1.0)
-    return Evidence("outer", RATE, 1.0, 1.0, track, Alignment(place, np.array([1.0, 0.0, 0.5])), mean, pairs)
+    return Evidence(race, RATE, 1.0, 1.0, track, Alignment(place, np.array([1.0, 0.0, 0.5])), mean, pairs)
 
 
 def test_no_lag_is_longer_than_a_pass_and_no_spall_than_half_the_race(judging):
@@ -56,12 +58,45 @@ def test_no_lag_is_longer_than_a_pass_and_no_spall_than_half_the_race(judging):
     assert estimate.candidates == pytest.approx((math.pi,))
 
 
+@pytest.mark.parametrize(("race", "diameter_mm"), [("outer", 38.75 + 7.12), ("inner", 38.75 - 7.12)])
+def test_a_size_is_told_along_its_race_with_its_own_interval(judging, race, diameter_mm):
+    estimate = judging(0.1, 1.0, 1.0).judge(one_pair(0.0, 20.0, race), GEARBOX)
+    length = math.radians(0.2 * 30.0) * diameter_mm / 2.0
+    assert estimate.extent_mm == pytest.approx(length)
+    assert estimate.extent_mm_interval == pytest.approx((length / 1.25, length * 1.25))
+    assert (estimate.race, estimate.pass_period) == (race, pytest.approx(0.1))
+    # 6, 36, … 156 degrees: as many as are no longer than half the race.
+    assert np.degrees(estimate.candidates) == pytest.approx(np.arange(6.0, 180.0, 30.0))
+
+
+def passes_of_noise(passes, race, samples_a_pass):
+    """Noise of so many nominal passes over a race, sampled so often, and its rate."""
+    noise = np.random.default_rng(0).standard_normal(round(passes * samples_a_pass))
+    return noise, samples_a_pass / GEARBOX.pass_periods()[race]
+
+
+@pytest.mark.parametrize(
+    ("passes", "samples_a_pass", "refused"),
+    [(5.9, 40.0, SizeOutcome.TOO_SHORT), (6.1, 40.0, None), (50.0, 15.9, SizeOutcome.TOO_COARSE), (50.0, 16.1, None)],
+)
+def test_six_passes_of_sixteen_samples_over_the_race_that_balls_pass_faster_are_enough(
+    judging, passes, samples_a_pass, refused
+):
+    outcome = judging(0.1, 1.0, 1.0).estimate(*passes_of_noise(passes, "inner", samples_a_pass), GEARBOX).outcome
+    assert outcome is refused if refused else outcome not in (SizeOutcome.TOO_SHORT, SizeOutcome.TOO_COARSE)
+
+
+@pytest.mark.parametrize("signal", [np.zeros(5000), np.full((5000, 2), np.nan)])
+def test_without_a_signal_there_is_no_size(judging, signal):
+    assert judging(0.1, 1.0, 1.0).estimate(signal, 1e4, GEARBOX).outcome is SizeOutcome.NO_SIGNAL
+
+
 def test_lag_and_arc_are_corrected_each_by_its_own_factor(judging):
     estimate = judging(0.1, 1.1, 1.5).judge(one_pair(0.0, 20.0), GEARBOX)
     assert estimate.lag == pytest.approx(0.022)
     assert estimate.lag_arc == pytest.approx(math.radians(0.22 * 30.0))
     assert estimate.extent == pytest.approx(math.radians(0.2 * 30.0 * 1.5))
-    assert estimate.extent_interval == pytest.approx((estimate.extent / 1.5, estimate.extent * 1.5))
+    assert estimate.extent_interval == pytest.approx((estimate.extent / 1.25, estimate.extent * 1.25))
     assert estimate.trust == pytest.approx(0.9)
     assert estimate.candidates[:2] == pytest.approx((estimate.extent, estimate.extent + math.radians(30.0)))
 
@@ -78,6 +113,10 @@ def test_above_the_most_doubt_nothing_is_told(judging):
     estimate = judging(0.41, 1.0, 1.0).judge(one_pair(0.0, 20.0), GEARBOX)
     assert estimate.outcome is SizeOutcome.NO_EVENT_PAIR
     assert (estimate.trust, math.isnan(estimate.extent)) == (pytest.approx(0.59), True)
+    assert estimate.race == "outer"
+    assert judging(0.4, 1.0, 1.0).judge(one_pair(0.0, 20.0), GEARBOX).found
+    trust = [judging(doubt, 1.0, 1.0).judge(one_pair(0.0, 20.0), GEARBOX).trust for doubt in (-0.1, 3.0)]
+    assert trust == [1.0, 0.0]
 
 
 def test_load_and_hertz_factor_ask_for_their_own_judgement(judging, saying):

@@ -30,3 +30,9 @@ def test_a_part_of_a_record_holds_the_passes_that_lie_in_it_whole():
     assert part.kept.tolist() == [False, True]
     assert math.isclose(part.lag, 0.025)
     assert math.isnan(truth.within(0.5, 0.6).lag)
+    assert truth.within(0.205, 0.5).first.tolist() == [0.3 - 0.205, 0.4 - 0.205]  # the second begins before
+
+
+def test_the_lag_of_a_record_is_the_median_over_its_passes():
+    first = np.array([0.1, 0.2, 0.3])
+    assert math.isclose(EventTruth(first, first + np.array([0.01, 0.02, 0.06]), np.zeros(3, dtype=bool)).lag, 0.02)

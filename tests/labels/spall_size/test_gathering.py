@@ -12,7 +12,8 @@ from labels.spall_size.columns.table import PAIR_COLUMNS
 from labels.spall_size.estimation.gathering import gather_evidence, peakedness, predictability
 from labels.spall_size.events.candidates import candidate_places
 from labels.spall_size.signal.alignment import Alignment, aligned
-from labels.spall_size.signal.mean_pass import MeanPass, mean_pass
+from labels.spall_size.signal.mean_pass import Channel, MeanPass, mean_pass
+from labels.spall_size.signal.noise_floor import log_noise_share
 from labels.spall_size.signal.pass_track import CELLS, PassTrack, track_passes
 from labels.spall_size.signal.prewhitening import prewhitened
 from labels.spall_size.signal.running_energy import RunningEnergy
@@ -48,6 +49,38 @@ def test_passes_of_a_slipping_cage_are_tracked_though_the_stated_period_is_wrong
     away = offset_from(track.time, train.entry)
     # All at one phase of the pass: a cell of the tracker is 0.4 % of a period.
     assert np.percentile(np.abs(away - np.median(away)), 90) < 0.006 * PERIOD
+
+
+def test_a_record_that_begins_while_it_rings_shows_no_event_there():
+    pulses = np.zeros(20000)
+    pulses[100:19000:900] = np.resize([1.0, -1.0], 21)
+    signal = lfilter([1.0], [1.0, -1.6, 0.95], pulses)[110:]  # begins ten samples after a pulse
+    residual = np.abs(prewhitened(signal + 1e-9 * np.random.default_rng(0).standard_normal(signal.size)).residual)
+    assert residual[:100].max() < 0.1 * residual[890]
+
+
+@pytest.fixture(scope="module")
+def rough_passes():
+    """The energy of 20 passes of 1280 samples, five to each cell of the tracker: log energies of chance in a pass, the
+    highest in cell 77, and an eighth of a pass before the first."""
+    level = np.random.default_rng(3).standard_normal(CELLS)
+    level[77] = 4.0
+    return np.concatenate([np.ones(160), np.tile(np.repeat(np.exp(1.5 * level), 5), 20)])
+
+
+def test_a_pattern_lies_round_the_instants_that_are_told(rough_passes):
+    track = track_passes(rough_passes, RATE, 1280 / RATE)
+    peak = (track.time + (track.pattern.argmax() - CELLS // 2) * track.period / CELLS) * RATE
+    true = 160.0 + 77 * 5 + 2.5 + 1280.0 * np.arange(20)  # the middle of the highest cell of each pass
+    assert np.abs(peak[:, None] - true).min(axis=1).max() < 1.0
+    # Of passes that are all alike the standard deviation of the record is that of the pattern.
+    assert track.score == pytest.approx(math.sqrt(CELLS), rel=0.1)
+
+
+@pytest.mark.parametrize(("passes", "tracked"), [(4.9, False), (5.1, True)])
+def test_five_passes_are_tracked_and_fewer_are_not(rough_passes, passes, tracked):
+    found = track_passes(rough_passes[: round(passes * 1280)], RATE, 1280 / RATE)
+    assert (found is not None) == tracked
 
 
 def test_too_short_a_record_has_no_track():
@@ -104,6 +137,89 @@ def mean_of_steps(first, last, period=400.0):
     rumble = np.where((phase >= first) & (phase <= last), 100.0, 1.0)
     flat = np.zeros(offset.size)
     return MeanPass(offset, np.tile(rumble, (4, 1)), flat, flat, 1.0, flat, 1.0, 50.0, period)
+
+
+@pytest.mark.parametrize("race", ["outer", "inner"])
+def test_pairs_know_what_their_record_is_like(pulse_train, race):
+    signal = pulse_train(LAG, PERIOD, noise=0.3, duration=0.4).signal
+    found = gather_evidence(signal, RATE, {race: PERIOD})
+    row, white = dict(zip(PAIR_COLUMNS, found.pairs.features[0], strict=True)), prewhitened(signal)
+    assert (found.race, row["inner"]) == (race, float(race == "inner"))
+    assert row["score"] == found.track.score
+    told = {name: row[name] for name in ("noise", "predictability", "peakedness")}
+    facts = (log_noise_share(signal), predictability(signal), peakedness(white.residual**2))
+    assert told == pytest.approx(dict(zip(told, facts, strict=True)))
+    assert (found.deviation, found.unit) == pytest.approx((signal.std(), white.unit))
+
+
+def test_what_is_told_in_the_unit_of_the_signal_grows_with_it_and_nothing_else_does(pulse_train):
+    signal = pulse_train(LAG, PERIOD, noise=0.3, duration=0.4).signal
+    one, other = (gather_evidence(scale * signal, RATE, {"outer": PERIOD}) for scale in (1.0, 1e3))
+    for name in ("deviation", "unit"):
+        assert getattr(other, name) == pytest.approx(1e3 * getattr(one, name), rel=1e-6)
+    for name in ("sway_unit", "give_unit"):
+        assert getattr(other.mean, name) == pytest.approx(1e3 * getattr(one.mean, name), rel=1e-6)
+    assert other.pairs.features == pytest.approx(one.pairs.features, rel=1e-4, abs=1e-4)
+
+
+def mean_of_passes(whitened, place, weight=None, signal=None):
+    weight = np.ones(len(place)) if weight is None else np.array(weight)
+    signal = whitened if signal is None else signal
+    return mean_pass(signal, whitened, Alignment(np.asarray(place, dtype=float), weight), 400.0)
+
+
+def test_each_band_holds_what_lies_in_it():
+    """Bursts of 0.01, 0.06 and 0.3 of the rate, at 100 samples before the anchor, at it and 100 behind it."""
+    time, place = np.arange(8000), 400 * np.arange(2, 18)
+    whitened = 1e-3 * np.random.default_rng(0).standard_normal(time.size)
+    for away, share in ((-100, 0.01), (0, 0.06), (100, 0.3)):
+        since = time - place[:, None] - away
+        whitened += (np.exp(-0.5 * (since / 15.0) ** 2) * np.cos(2.0 * np.pi * share * since)).sum(axis=0)
+    mean = mean_of_passes(whitened, place)
+    bursts = mean.energy[:, [np.flatnonzero(mean.offset == away)[0] for away in (-100, 0, 100)]]
+    # Gaussian edges at 0.03 and 0.12 of the rate leave less than 2 % of the energy of the other ones, and 55 % or more.
+    assert (bursts[1:] / bursts[1:].max(axis=1, keepdims=True) > 0.1).tolist() == np.eye(3, dtype=bool).tolist()
+
+
+@pytest.mark.parametrize("scale", [1e-3, 1.0, 1e3])
+def test_the_energy_of_each_channel_is_over_its_own_median(scale):
+    noise = scale * np.random.default_rng(0).standard_normal(100_000)
+    mean = mean_of_passes(noise, 400 * np.arange(2, 240))
+    # Half of the squares of a standard normal variable, whose mean is 1, are below 0.6745².
+    assert mean.energy.mean(axis=1) == pytest.approx(np.full(4, 1.0 / 0.6745**2), rel=0.05)
+
+
+def test_neither_passes_without_weight_nor_what_lies_beyond_the_record_count():
+    whitened = np.ones(3000)
+    whitened[[0, 1650]] = 1e3  # what stands at the start is before the first pass but for 200 samples
+    mean = mean_of_passes(whitened, [200, 1000, 1600], [1.0, 1.0, 0.0])
+    at = np.flatnonzero(mean.energy[Channel.ALL] > 2.0)
+    assert mean.offset[at].tolist() == [-200]
+
+
+def test_waveform_and_sway_are_of_the_signal_prewhitened_and_as_it_was():
+    turn = 2.0 * np.pi * np.arange(20_000) / 400.0
+    mean = mean_of_passes(np.sin(20.0 * turn), 400 * np.arange(2, 48), signal=5.0 + 3.0 * np.cos(turn))
+    turn = 2.0 * np.pi * mean.offset / 400.0
+    assert mean.waveform == pytest.approx(np.sin(20.0 * turn), abs=1e-9)
+    assert (mean.sway.mean(), mean.sway.std()) == pytest.approx((0.0, 1.0), abs=1e-12)
+    assert mean.sway_unit == pytest.approx((3.0 * np.cos(turn)).std(), rel=0.01)  # a blur of 4 samples leaves 0.998
+
+
+def test_energy_is_periodic():
+    mean = replace(mean_of_steps(0, 0), energy=np.tile(1.0 + np.arange(-440, 441) % 400, (4, 1)))
+    summed, ends = RunningEnergy(mean), np.array([[-460.0, -450.0], [-60.0, -50.0], [340.0, 350.0]])
+    # Offsets 340 to 350, both included, have energies of 341 to 351, the same as those a period or two earlier.
+    assert summed.level(*ends.T)[0] == pytest.approx(np.full(3, math.log(346.0)))
+    assert summed.level(np.array([445.0]), np.array([455.0]))[0] == pytest.approx([math.log(51.0)])
+
+
+@pytest.mark.parametrize("channel", [Channel.LOW, Channel.HIGH])
+def test_what_only_one_band_shows_is_a_candidate_too_to_a_fraction_of_a_sample(channel):
+    mean = mean_of_steps(500, 600)
+    energy = np.ones_like(mean.energy)
+    energy[channel] += 50.0 * np.exp(-0.5 * ((mean.offset - 30.3) / 3.0) ** 2)
+    assert np.abs(candidate_places(replace(mean, energy=energy)) - 30.3).min() < 0.1
 
 
 def test_both_ends_of_a_rumble_are_candidates():
@@ -180,8 +296,9 @@ def test_passes_count_by_their_weight(weight, passes):
     assert mean_pass(noise, noise, Alignment(place, np.array(weight)), 200.0).passes == pytest.approx(passes)
 
 
-def test_a_pass_half_as_loud_weighs_a_quarter():
-    period, loud = 400, np.where(np.arange(20) % 5 == 2, 0.5, 1.0)
+@pytest.mark.parametrize("quiet", [(2,), (0, 1, 2, 4)])
+def test_a_pass_half_as_loud_weighs_a_quarter(quiet):
+    period, loud = 400, np.where(np.isin(np.arange(20) % 5, quiet), 0.5, 1.0)
     energy = np.zeros(20 * period)
     energy[200 + period * np.arange(20)] = loud**2
     pattern = np.zeros(CELLS)
@@ -190,6 +307,30 @@ def test_a_pass_half_as_loud_weighs_a_quarter():
     found = aligned(energy, RATE, track)
     assert found.place == pytest.approx(200.0 + period * np.arange(20), abs=1e-6)
     assert found.weight == pytest.approx(loud**2)
+
+
+def lined_up(place, nominal, second):
+    """Where passes of 1600 samples are lined up whose event is at `place` (K,), in samples, `nominal` (K,) being known,
+    and followed after six samples by one of the size `second` (K,)."""
+    since = np.maximum(np.arange(1600 * place.size) - place[:, None] - np.array([0.0, 6.0])[:, None, None], 0.0)
+    events = (since / 1.2) ** 2 * np.exp(-since / 1.2) * np.stack([np.ones(place.size), second])[..., None]
+    pattern = np.zeros(CELLS)
+    pattern[CELLS // 2] = 1.0
+    track = PassTrack(nominal / RATE, 1600 / RATE, pattern, 1.0)
+    return aligned(events.sum(axis=(0, 1)) ** 2, RATE, track).place
+
+
+def test_passes_are_lined_up_to_a_tenth_of_a_sample():
+    nominal = 800.0 + 1600.0 * np.arange(20)
+    place = nominal + np.random.default_rng(6).uniform(-2.0, 2.0, 20)
+    away = lined_up(place, nominal, np.zeros(20)) - place
+    assert np.abs(away - away.mean()).max() < 0.1
+
+
+def test_a_pass_that_shows_the_first_of_two_events_alone_is_lined_up_with_the_others():
+    place = 800.0 + 1600.0 * np.arange(20)
+    away = lined_up(place, place, np.where(np.arange(20) % 3 == 1, 0.0, 0.8)) - place
+    assert np.abs(away - away.mean()).max() < 0.5
 
 
 def test_prewhitened_noise_is_told_in_units_of_its_median_size():

@@ -22,7 +22,7 @@ def test_a_correction_scales_every_extent_and_leaves_the_lag():
                         extent_interval=(0.08, 0.12), extent_mm=2.0, extent_mm_interval=(1.6, 2.4),
                         candidates=(0.1, 0.6))  # fmt: skip
     made = corrected(estimate, 1.1)
-    assert made.extent == pytest.approx(0.11)
+    assert (made.extent, made.extent_mm) == pytest.approx((0.11, 2.2))
     assert made.extent_interval == pytest.approx((0.088, 0.132))
     assert made.extent_mm_interval == pytest.approx((1.76, 2.64))
     assert made.candidates == pytest.approx((0.11, 0.66))

@@ -34,3 +34,4 @@ def test_a_tone_without_noise_is_quiet_and_so_is_a_record_too_short_to_tell():
 def test_noise_alone_is_noisy_at_any_scale():
     noise = 1e-6 * np.random.default_rng(1).standard_normal(65536)
     assert log_noise_share(noise) == pytest.approx(0.0, abs=0.25)
+    assert log_noise_share(noise + 1e-3) == pytest.approx(log_noise_share(noise), abs=1e-6)  # rounding

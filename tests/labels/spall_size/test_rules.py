@@ -23,6 +23,27 @@ def test_a_constant_signal_has_no_envelope_lag():
     assert math.isnan(envelope_lag(np.zeros(5000), RATE, 0.01))
 
 
+def test_neither_an_offset_nor_what_lies_at_the_ends_makes_a_lag(pulse_train):
+    signal = pulse_train(150.0 / RATE, 0.011, duration=0.3).signal
+    shifted = 5.0 * signal.std() + signal
+    assert envelope_lag(shifted, RATE, 0.45 * 0.011) == envelope_lag(signal, RATE, 0.45 * 0.011)
+    time = np.arange(6000.0)  # round the ends the bursts would lie 150 samples apart
+    ends = np.cos(1.3 * time) * sum(np.exp(-(((time - place) / 8.0) ** 2)) for place in (50, 5900))
+    assert not abs(envelope_lag(ends, 1.0, 400.0) - 150.0) < 3.0
+
+
+def test_a_pass_later_is_no_lag(pulse_train):
+    train = pulse_train(100.0 / RATE, GEARBOX.pass_periods()["outer"], slip=0.0, exit_size=0.0)
+    estimate = EnvelopeLagRule().estimate(train.signal, RATE, replace(GEARBOX, race="outer"))
+    assert not estimate.lag > 0.95 * train.period
+
+
+def test_no_spall_is_longer_than_half_the_race(pulse_train):
+    train = pulse_train(100.0 / RATE, GEARBOX.pass_periods()["outer"])
+    estimate = EnvelopeLagRule(1e3).estimate(train.signal, RATE, GEARBOX)
+    assert (estimate.extent, estimate.candidates) == (math.pi, (math.pi,))
+
+
 @pytest.mark.parametrize(("middle", "lag"), [(0.55, 100), (0.45, 300)])
 def test_the_first_peak_counts_that_is_half_as_marked_as_the_highest(middle, lag):
     # Bursts of energy 1, `middle` and 1: their squared envelope repeats by `middle` after 100 and 200, by 1 after 300.

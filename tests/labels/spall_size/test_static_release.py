@@ -55,6 +55,15 @@ def test_a_situation_gives_both_races_unless_the_race_is_known():
     assert Situation(**known, load=300.0, load_deflection=5e9).load_known
 
 
+def test_a_situation_has_the_contact_angle_and_the_exponent_that_are_stated():
+    # The ZA-2115 of IMS: 236.4 and 296.9 Hz are published at 2000 rpm.
+    tilted = Situation(16, 1, 71.5e-3, 8.407e-3, 2000.0 / 60.0 * 2.0 * math.pi, math.radians(15.17))
+    assert [1.0 / period for period in tilted.pass_periods().values()] == pytest.approx([236.4, 296.9], abs=0.05)
+    rollers = Situation(16, 1, 71.5e-3, 8.407e-3, 209.0, load=300.0, load_deflection=1e9, exponent=10.0 / 9.0)
+    assert rollers.bearing().exponent == 10.0 / 9.0
+    assert rollers.without_load().exponent == 1.5  # that of balls, where nothing is known
+
+
 @pytest.mark.parametrize("factor", [0.0, -5e9, math.nan])
 def test_a_hertz_factor_is_above_0_or_unknown(factor):
     known = {"balls": 12, "rows": 2, "pitch_diameter": 38.75e-3, "ball_diameter": 7.12e-3, "shaft_speed": 44.0}
@@ -70,6 +79,11 @@ def test_a_spall_is_longer_than_its_events_are_apart_by_a_release_arc_at_either_
     release = entry + release_arc(GEARBOX, race, 346.0)
     regain = exit_ - release_arc(GEARBOX, race, 346.0)
     assert arc_with_static_release(regain - release, GEARBOX, race, 346.0) == pytest.approx(exit_ - entry)
+
+
+def test_no_load_is_negative():
+    with pytest.raises(InvalidParameter, match="load"):
+        Situation(12, 2, 38.75e-3, 7.12e-3, 44.0, load=-1.0)
 
 
 def test_a_bearing_without_load_has_no_release_arc_to_be_computed():

@@ -1,8 +1,8 @@
 """Marching a method at fixed steps from sample to sample, stopping at every change of contact and every known kink.
 
-A trial step is made with the contact set frozen. If at its end, or inside it, a ball contradicts the set, the instant of
-the first contradiction is located and the step is repeated up to it. There the ball changes sides, and the march goes
-on. Times at which a ball crosses an edge of its path are known beforehand and are step ends.
+A trial step is made with the contact set frozen. If at its end, or inside it, a ball contradicts the set, the instant
+of the first contradiction is located and the step is repeated up to it. There the ball changes sides, and the march
+goes on. Times at which a ball crosses an edge of its path are known beforehand and are step ends.
 """
 
 from __future__ import annotations

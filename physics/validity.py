@@ -29,7 +29,7 @@ PEAK_INSTANTS = 256
 
 
 def assess(scene: Scene) -> tuple[str, ...]:
-    """Sentences with numbers on where `scene` leaves the range of the model; empty where it holds."""
+    """Clauses with numbers on where `scene` leaves the range of the model; empty where it holds."""
     peak = peak_ball_load(scene)
     forces = (_centrifugal(scene, peak), _ball_inertia(scene, peak), _steps(scene))
     run = (_speed(scene), _cage_speed(scene))
@@ -126,8 +126,8 @@ def _centrifugal(scene: Scene, peak: float) -> str:
     if force <= NEGLIGIBLE_SHARE * peak:
         return ""
     return (
-        f"The centrifugal force of a ball ({force:.3g} N) is left out but is {_share(force, peak)} "
-        f"the peak ball load ({peak:.3g} N)."
+        f"the centrifugal force of a ball ({force:.3g} N) is left out but is {_share(force, peak)} "
+        f"the peak ball load ({peak:.3g} N)"
     )
 
 
@@ -138,8 +138,8 @@ def _ball_inertia(scene: Scene, peak: float) -> str:
     if force <= NEGLIGIBLE_SHARE * peak:
         return ""
     return (
-        f"The inertia of a ball on its way over the spall ({force:.3g} N) is left out but is {_share(force, peak)} "
-        f"the peak ball load ({peak:.3g} N)."
+        f"the inertia of a ball on its way over the spall ({force:.3g} N) is left out but is {_share(force, peak)} "
+        f"the peak ball load ({peak:.3g} N)"
     )
 
 
@@ -153,8 +153,8 @@ def _steps(scene: Scene) -> str:
     if damping == 0.0 or max(steps, default=0.0) == 0.0:
         return ""
     return (
-        f"An edge without taper is a step that the film does not feel, though over any taper, however short, it gives "
-        f"an impulse of {damping * max(steps):.3g} N s (damping times depth): a short taper has another response."
+        f"an edge without taper is a step that the film does not feel, though over any taper, however short, it gives "
+        f"an impulse of {damping * max(steps):.3g} N s (damping times depth): a short taper has another response"
     )
 
 
@@ -164,8 +164,8 @@ def _speed(scene: Scene) -> str:
     if factor <= LIMITING_SPEED_FACTOR:
         return ""
     return (
-        f"Shaft speed times pitch diameter is {factor:.3g} rpm mm, above the {LIMITING_SPEED_FACTOR:.3g} rpm mm usual "
-        f"for greased bearings ({rpm:.4g} rpm)."
+        f"shaft speed times pitch diameter is {factor:.3g} rpm mm, above the {LIMITING_SPEED_FACTOR:.3g} rpm mm usual "
+        f"for greased bearings ({rpm:.4g} rpm)"
     )
 
 
@@ -175,8 +175,8 @@ def _cage_speed(scene: Scene) -> str:
     if abs(cage - rolling) <= SAME_SPEED * rolling:
         return ""
     return (
-        f"The cage turns at a nominal {cage:.4g} rad/s, but without slip the shaft would turn it at {rolling:.4g} "
-        "rad/s: ball-pass frequencies counted from the shaft are not those of the balls."
+        f"the cage turns at a nominal {cage:.4g} rad/s, but without slip the shaft would turn it at {rolling:.4g} "
+        "rad/s: ball-pass frequencies counted from the shaft are not those of the balls"
     )
 
 
@@ -184,21 +184,21 @@ def _load(scene: Scene, peak: float) -> str:
     bearing, load = scene.rig.bearing, scene.operation.load
     _, largest = load_range(scene)
     if largest == 0.0 and peak == 0.0:
-        return "There is no load (0 N): balls touch only by chance and no quasi-static position is defined."
+        return "there is no load (0 N): balls touch only by chance and no quasi-static position is defined"
     rating = static_load_rating(bearing)
     dents = bearing.stribeck_peak_load(rating)
     if largest > rating:
         return (
-            f"The load on the shaft ({largest:.4g} N at its largest) exceeds the static rating of the bearing "
-            f"({rating:.4g} N), where elements and races are dented."
+            f"the load on the shaft ({largest:.4g} N at its largest) exceeds the static rating of the bearing "
+            f"({rating:.4g} N), where elements and races are dented"
         )
     if peak > dents:
         return (
-            f"The most loaded ball carries {peak:.4g} N, more than at the static rating of the bearing ({dents:.4g} "
-            f"N), where elements and races are dented."
+            f"the most loaded ball carries {peak:.4g} N, more than at the static rating of the bearing ({dents:.4g} "
+            f"N), where elements and races are dented"
         )
     if load < 0.0:
-        return f"The static load is reversed ({load:.4g} N): the load zone is centred at 90 degrees instead of 270."
+        return f"the static load is reversed ({load:.4g} N): the load zone is centred at 90 degrees instead of 270"
     return ""
 
 
@@ -207,8 +207,8 @@ def _contact_angle(scene: Scene) -> str:
     if angle == 0.0:
         return ""
     return (
-        f"The contact angle of {angle:.4g} degrees enters only as a factor {math.cos(math.radians(angle)):.4g} on "
-        "deflection and force: axial motion and its change under load are left out."
+        f"the contact angle of {angle:.4g} degrees enters only as a factor {math.cos(math.radians(angle)):.4g} on "
+        "deflection and force: axial motion and its change under load are left out"
     )
 
 

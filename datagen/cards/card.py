@@ -121,8 +121,8 @@ def _making(facts: Facts, source: str) -> Iterable[str]:
         )
         yield f"`error_estimate`: {LABEL['error_estimate'].sentence}\n"
         outside = f"{info.outside_validity} of {info.records} records are to be read with care"
-        yield f"{outside}{':' if facts.validity else '.'}\n"
-        yield from (f"- {count}: {reason}" for reason, count in facts.validity.items())
+        yield f"{outside}{':' if info.validity else '.'}\n"
+        yield from (f"- {count}: {reason}" for reason, count in info.validity.items())
         if info.refused:
             yield "\nImpossible draws, which were drawn again:\n"
             rows = [(what, refused.count, refused.example) for what, refused in info.refused.items()]

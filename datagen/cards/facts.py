@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -59,14 +58,13 @@ class Terms:
 
 @dataclass(frozen=True)
 class Facts:
-    """Everything a card states; `validity` counts the records by reason for which they are to be read with care."""
+    """Everything a card states."""
 
     info: Info
     summary: str
     terms: Terms
     kinds: tuple[Kind, ...]
     solved: tuple[Solved, ...]
-    validity: dict[str, int]
     rates_hz: tuple[float, ...]
     durations_s: tuple[float, float]
     splits: dict[str, int]
@@ -82,7 +80,6 @@ def corpus_facts(folder: Path) -> Facts:
         terms=Terms(*(str(_stated(manifest, name)) for name in ("licence", "citation", "url"))),
         kinds=tuple(_kinds(table)),
         solved=tuple(solved(table)),
-        validity=_validity(table),
         rates_hz=tuple(sorted(set(table["rate_hz"].tolist()))),
         durations_s=(float(table["duration_s"].min()), float(table["duration_s"].max())),
         splits={name: int((table["split"] == name).sum()) for name in SPLIT_ORDER if (table["split"] == name).any()},
@@ -129,16 +126,3 @@ def _solved(model: str, method: str, rows: pandas.DataFrame) -> Solved:
 
 def _known(value: float) -> float | None:
     return None if value != value else float(value)
-
-
-def _validity(table: pandas.DataFrame) -> dict[str, int]:
-    """Records by reason; the numbers in a reason differ from record to record and are left out."""
-    counts: dict[str, int] = {}
-    for text in table["validity"]:
-        for reason in {_without_numbers(part) for part in str(text).split("; ") if part}:
-            counts[reason] = counts.get(reason, 0) + 1
-    return dict(sorted(counts.items(), key=lambda item: -item[1]))
-
-
-def _without_numbers(reason: str) -> str:
-    return re.sub(r"[-+]?\d+(\.\d+)?(e[-+]?\d+)?", "…", reason)

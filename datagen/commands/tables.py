@@ -21,7 +21,8 @@ def info_tables(info: Info) -> list[Table]:
     crossed = [_crossed(info, title) for title, rows in info.crossed.items() if _says_something(rows)]
     asked = [_asked(info)] if info.asked_by_condition else []
     refused = [_refused(info)] if info.refused else []
-    return [_summary(info), _counts(info), *asked, *crossed, *refused, _ranges(info)]
+    with_care = [_with_care(info)] if info.validity else []
+    return [_summary(info), _counts(info), *asked, *crossed, *refused, *with_care, _ranges(info)]
 
 
 def _summary(info: Info) -> Table:
@@ -49,7 +50,7 @@ def _simulated(info: Info) -> dict[str, str]:
     return {
         "could not be made": str(info.failed),
         "virtual bearings": info.bearings_text,
-        "to be read with care": f"{counted(info.outside_validity, 'record')}; the label validity says why",
+        "to be read with care": counted(info.outside_validity, "record"),
     }
 
 
@@ -123,6 +124,16 @@ def _refused(info: Info) -> Table:
     table.add_column("for example")
     for what, refused in info.refused.items():
         table.add_row(what, str(refused.count), f"{refused.count / max(info.records, 1):.3f}", refused.example)
+    return table
+
+
+def _with_care(info: Info) -> Table:
+    """Why records are to be read with care."""
+    table = Table(title="records to be read with care; the label validity has the numbers")
+    table.add_column("records", justify="right")
+    table.add_column("because")
+    for reason, count in info.validity.items():
+        table.add_row(str(count), reason)
     return table
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
@@ -41,7 +43,8 @@ class Info:
     `signal_seconds` is the summed length of the records; `made_per_second` how many of those seconds one worker made in
     a second; `record_seconds` what a record cost one worker, `record_bytes` what it takes on the disk. `crossed` counts
     records by two labels at once, `bearings_in_split` the known `bearings`, virtual ones where records are simulated;
-    `of_unknown_bearing` records are of one that is not known. `asked_by_condition` what the weights of the
+    `of_unknown_bearing` records are of one that is not known. `outside_validity` records are to be read with care, and
+    `validity` counts them by reason. `asked_by_condition` what the weights of the
     recipe give of the records asked for; `refused` are the impossible draws.
     `missing_files` says how many records each shard held that is gone, `damaged_files` each that is cut off,
     overwritten or not to be read; all else is counted as if they were there. `origin` is simulated or imported: of
@@ -64,6 +67,7 @@ class Info:
     bearings: int
     of_unknown_bearing: int
     outside_validity: int
+    validity: dict[str, int]
     missing_files: dict[str, int]
     damaged_files: dict[str, int]
     bearings_in_split: dict[str, int]
@@ -117,6 +121,7 @@ def corpus_info(folder: str | Path) -> Info:
         bearings=int(of_known["bearing_id"].nunique()),
         of_unknown_bearing=len(table) - len(of_known),
         outside_validity=int((table["validity"] != "").sum()),
+        validity=_by_reason(table["validity"]),
         missing_files=_records_of(shard for shard in manifest.shards if not (folder / shard.file).is_file()),
         damaged_files=_records_of(shard for shard in manifest.shards if _is_damaged(folder / shard.file, shard.bytes)),
         bearings_in_split=_counts(of_known.drop_duplicates("bearing_id")["split"]),
@@ -168,3 +173,14 @@ def _ranges(table: pandas.DataFrame) -> dict[str, Range]:
                 label.unit, float(known.min()), float(known.median()), float(known.max()), len(table) - len(known)
             )
     return ranges
+
+
+def _by_reason(validity: Iterable[str]) -> dict[str, int]:
+    """Records by reason; the numbers in a reason differ from record to record and are left out."""
+    counts = Counter(reason for text in validity for reason in {_without_numbers(part) for part in text.split("; ")})
+    del counts[""]
+    return dict(counts.most_common())
+
+
+def _without_numbers(reason: str) -> str:
+    return re.sub(r"[-+]?\d+(\.\d+)?(e[-+]?\d+)?", "…", reason)

@@ -82,10 +82,10 @@ def test_the_balls_turn_as_fast_as_their_cage_says_and_not_as_the_shaft_does(gea
 def test_a_cage_that_does_not_fit_the_shaft_is_told(gearbox, cage):
     scene = scene_of(gearbox)
     faster = dataclasses.replace(scene, operation=Operation(2.0 * gearbox.rated_speed, gearbox.rated_load))
-    message = "The cage turns at a nominal 17.95 rad/s, but without slip the shaft would turn it at 35.9 rad/s"
+    message = "the cage turns at a nominal 17.95 rad/s, but without slip the shaft would turn it at 35.9 rad/s"
     assert [note.split(":")[0] for note in assess(faster)] == [message]
     slow = dataclasses.replace(scene, **{cage: CagePath(9.0, 0.5)})
-    assert any("The cage turns at a nominal 9 rad/s" in note for note in assess(slow))
+    assert any("the cage turns at a nominal 9 rad/s" in note for note in assess(slow))
     # Speeds of seven digits are those of pure rolling.
     for off, noted in ((5e-7, 0), (-5e-7, 0), (5e-6, 1), (-5e-6, 1)):
         nearly = CagePath(scene.cage.nominal_speed * (1.0 + off), 0.5)
@@ -204,9 +204,9 @@ def test_fast_running_brings_ball_inertia_and_centrifugal_force_into_the_note(fa
     peak = peak_by_search(fan, 100.0)
     assert peak == pytest.approx(23.28, abs=0.05)  # three digits, as shown; 15.6 N if there were no clearance
     assert notes[0] == (
-        "The centrifugal force of a ball (5.62 N) is left out but is 0.24 times the peak ball load (23.3 N)."
+        "the centrifugal force of a ball (5.62 N) is left out but is 0.24 times the peak ball load (23.3 N)"
     )
-    assert notes[1].startswith("The inertia of a ball on its way over the spall (219 N) is left out but is 9.4 times")
+    assert notes[1].startswith("the inertia of a ball on its way over the spall (219 N) is left out but is 9.4 times")
     assert len(notes) == 2
 
 
@@ -223,7 +223,7 @@ def test_the_note_on_the_centrifugal_force_appears_where_it_passes_a_fifth_of_th
     limit = math.sqrt(0.2 * peak_by_search(fan, 100.0) / rated) * fan.rated_speed
     assert assess(scene_of(fan, speed=0.999 * limit)) == ()
     [note] = assess(scene_of(fan, speed=1.001 * limit))
-    assert note.startswith("The centrifugal force of a ball")
+    assert note.startswith("the centrifugal force of a ball")
 
 
 def test_the_peak_load_of_a_load_that_swings_is_that_of_its_largest(fan):
@@ -242,7 +242,7 @@ def test_an_edge_without_taper_is_out_of_range(gearbox):
     inertia, film = assess(scene_of(gearbox, (line(2.0, 0.0, 0.0),)))
     assert "inertia of a ball" in inertia
     # 100 N s/m of the gearbox rig times 12 µm
-    assert film.startswith("An edge without taper is a step that the film does not feel")
+    assert film.startswith("an edge without taper is a step that the film does not feel")
     assert "an impulse of 0.0012 N s (damping times depth)" in film
     shallow, one_edge = dataclasses.replace(line(2.0, 0.0, 0.0), depth=3e-6), line(2.0, 0.0, 0.3)
     for spalls in ((one_edge,), (line(2.0, 0.3, 0.0),), (dataclasses.replace(shallow, angle=1.0), one_edge)):
@@ -255,20 +255,20 @@ def test_an_edge_without_taper_is_out_of_range(gearbox):
 
 def test_a_bearing_turned_faster_than_grease_allows_is_noted(gearbox):
     (note,) = [n for n in assess(scene_of(gearbox, speed=20000 * RPM)) if "pitch diameter" in n]
-    assert note.startswith("Shaft speed times pitch diameter is 7.75e+05 rpm mm, above the 5e+05 rpm mm usual")
+    assert note.startswith("shaft speed times pitch diameter is 7.75e+05 rpm mm, above the 5e+05 rpm mm usual")
 
 
 def test_no_load_and_reversed_load_are_noted_with_their_numbers(gearbox):
     none = assess(scene_of(gearbox, load=0.0))
-    assert any(note.startswith("There is no load (0 N)") for note in none)
+    assert any(note.startswith("there is no load (0 N)") for note in none)
     (reversed_load,) = assess(scene_of(gearbox, load=-346.0))
-    assert reversed_load.startswith("The static load is reversed (-346 N): the load zone is centred at 90 degrees")
+    assert reversed_load.startswith("the static load is reversed (-346 N): the load zone is centred at 90 degrees")
 
 
 def test_a_load_above_the_static_rating_is_noted_with_both(gearbox):
     [note] = assess(scene_of(gearbox, load=22e3))
     # ISO 76 with one factor: 14.7 N/mm² · 2 rows · 12 balls · (7.12 mm)² = 17.9 kN
-    message = "The load on the shaft (2.2e+04 N at its largest) exceeds the static rating of the bearing (1.788e+04 N)"
+    message = "the load on the shaft (2.2e+04 N at its largest) exceeds the static rating of the bearing (1.788e+04 N)"
     assert note.startswith(message)
 
 
@@ -283,7 +283,7 @@ def test_a_load_that_turns_with_the_shaft_counts(gearbox, load):
     # Both phases are 0: the load is (U cos θ, U sin θ − W (1 + 3 cos θ)), here searched for its largest magnitude.
     angle = np.linspace(0.0, 2.0 * math.pi, 100_001)
     magnitude = np.hypot(1e5 * np.cos(angle), 1e5 * np.sin(angle) - load * (1.0 + 3.0 * np.cos(angle)))
-    assert note.startswith(f"The load on the shaft ({magnitude.max():.4g} N at its largest) exceeds")
+    assert note.startswith(f"the load on the shaft ({magnitude.max():.4g} N at its largest) exceeds")
 
 
 def test_a_preloaded_bearing_without_static_load_has_a_quasi_static_position(gearbox):
@@ -303,11 +303,11 @@ def test_a_preload_or_an_oversized_ball_that_dents_the_races_is_noted(gearbox):
     for scene in (crushed, wedged):
         [note] = [note for note in assess(scene) if "dented" in note]
         # At the rating, 17.88 kN, the most loaded of 24 balls carries 4.37 / 24 of it.
-        assert note.startswith("The most loaded ball carries 1")
+        assert note.startswith("the most loaded ball carries 1")
         assert "more than at the static rating of the bearing (3257 N)" in note
     assert gearbox.bearing.load_deflection * 1e-3**1.5 == pytest.approx(1.6e5, rel=0.03)  # of 1 mm alone
 
 
 def test_a_contact_angle_is_noted_with_its_cosine():
     (note,) = assess(scene_of(rig("ims")))
-    assert note.startswith("The contact angle of 15.17 degrees enters only as a factor 0.9652 on deflection and force")
+    assert note.startswith("the contact angle of 15.17 degrees enters only as a factor 0.9652 on deflection and force")

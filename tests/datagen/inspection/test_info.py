@@ -10,6 +10,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import pandas
 import pytest
 from command_line import run
 from rich.console import Console
@@ -45,6 +46,14 @@ condition = {balanced = ["healthy", "line"]}
 extent_deg = {uniform = [20, 40]}
 depth_um = 10
 """
+
+
+def shown_text(info: Info, width: int = 300) -> str:
+    """What `spallgen info` prints."""
+    console = Console(width=width, record=True, file=io.StringIO())
+    for table in info_tables(info):
+        console.print(table)
+    return console.export_text()
 
 
 @pytest.fixture(scope="module")
@@ -119,10 +128,7 @@ def test_the_middle_of_a_range_is_that_of_the_records_in_order(recipe: Recipe, i
 
 
 def test_the_tables_show_what_was_refused_and_how_it_is_balanced(info: Info) -> None:
-    console = Console(width=160, record=True, file=io.StringIO())
-    for table in info_tables(info):
-        console.print(table)
-    text = console.export_text()
+    text = shown_text(info, 160)
     for words in ("impossible draws", "machine: ball_diameter", "records by condition and location", "50.0%", "train"):
         assert words in text
 
@@ -178,15 +184,9 @@ def test_a_shard_that_is_gone_is_named_and_its_records_are_not_counted_as_there(
     (copy / entry.file).unlink()
     found = corpus_info(copy)
     assert found.missing_files == {entry.file: entry.records}
-    shown = io.StringIO()
-    console = Console(file=shown, width=300)
-    for table in info_tables(found):
-        console.print(table)
-    assert f"{14 - entry.records} of 14 asked for" in shown.getvalue()
-    assert (
-        f"{entry.file}, with {entry.records} records, which all other numbers here still count: generate"
-        in shown.getvalue()
-    )
+    shown = shown_text(found)
+    assert f"{14 - entry.records} of 14 asked for" in shown
+    assert f"{entry.file}, with {entry.records} records, which all other numbers here still count: generate" in shown
 
 
 def test_words_of_simulations_are_not_said_of_recordings(tmp_path: Path) -> None:
@@ -205,3 +205,28 @@ def test_words_of_simulations_are_not_said_of_recordings(tmp_path: Path) -> None
     assert "records by condition and" not in shown
     Path(out / read_manifest(out).shards[0].file).unlink()
     assert "1 of 2 recordings" in " ".join(run("info", out)[1].replace("│", " ").split())
+
+
+def test_records_to_be_read_with_care_are_counted_by_reason_whatever_the_numbers(copy: Path) -> None:
+    index = pandas.read_csv(copy / "index.csv", keep_default_na=False)
+    index["validity"] = ""
+    index.loc[:2, "validity"] = [
+        "a ball carries 3.2e+04 N",
+        "0.12 of the samples are cut off; a ball carries -7 N",
+        "a ball carries 12.5 N; a ball carries 1e-3 N",
+    ]
+    index.to_csv(copy / "index.csv", index=False)
+    info = corpus_info(copy)
+    assert info.outside_validity == 3
+    assert info.validity == {"a ball carries … N": 3, "… of the samples are cut off": 1}
+    shown = "".join(shown_text(info).split())
+    assert "3│aballcarries…N" in shown
+    assert "1│…ofthesamplesarecutoff" in shown
+
+
+def test_no_table_of_reasons_is_shown_where_there_are_none(copy: Path) -> None:
+    index = pandas.read_csv(copy / "index.csv", keep_default_na=False)
+    index["validity"] = ""
+    index.to_csv(copy / "index.csv", index=False)
+    assert corpus_info(copy).validity == {}
+    assert "because" not in shown_text(corpus_info(copy))

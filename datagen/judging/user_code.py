@@ -7,11 +7,13 @@ import sys
 import traceback
 from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
 from typing import Any
 
 from datagen.errors import BadInput
 
 FIELD = "--estimator"
+OWN_CODE = Path(__file__).parents[1]
 
 
 def load_user_code(name: str, allowed: str) -> Any:
@@ -38,7 +40,14 @@ def user_code(name: str, problem: str, allowed: str = "") -> Iterator[None]:
     except BadInput:
         raise
     except (Exception, SystemExit) as cause:
-        last = traceback.extract_tb(cause.__traceback__)[-1]
-        where = "" if last.filename.startswith("<frozen ") else f" ({last.filename}, line {last.lineno})"
-        text = f"{problem}: {type(cause).__name__}: {cause}{where}"
+        text = f"{problem}: {type(cause).__name__}: {cause}{_place(cause)}"
         raise BadInput(text, field=FIELD, value=name, allowed=allowed) from cause
+
+
+def _place(cause: BaseException) -> str:
+    """File and line in which the `cause` was raised; empty inside Python, and where our own call failed, as for a class
+    that wants arguments: neither is a place that its user could mend."""
+    last = traceback.extract_tb(cause.__traceback__)[-1]
+    if last.filename.startswith("<frozen ") or Path(last.filename).is_relative_to(OWN_CODE):
+        return ""
+    return f" ({last.filename}, line {last.lineno})"

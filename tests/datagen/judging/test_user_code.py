@@ -46,6 +46,17 @@ def test_a_module_that_is_not_there_is_told_without_a_place_inside_python(here):
         load_user_code("nowhere:X", "module:Class")
 
 
+@pytest.mark.parametrize("name", ["h_thing:Thing", "h_good:Other"])
+def test_no_place_in_our_code_is_told_as_theirs(here, name):
+    with pytest.raises(BadInput, match=r"(argument: 'size'|attribute 'Other'); allowed"):
+        load_user_code(name, "module:Class")
+
+
+def test_the_place_in_their_code_is_told(here):
+    with pytest.raises(BadInput, match=r"KeyError: 'no' \(.*h_refuses\.py, line 3\)"):
+        load_user_code("h_refuses:Thing", "module:Class")
+
+
 @pytest.mark.parametrize("command", [["classify", "--train", "a", "--test", "b"], ["size", "a"]])
 def test_both_commands_refuse_it_alike(here, command):
     done = run(*command, "--estimator", "h_syntax:Thing")

@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 from datagen.benchmark.options import Learning
 from datagen.benchmark.training import Model, TrainingSet, copy_of, train
 from datagen.benchmark.verdicts import vote
+from datagen.counts import counted
 from datagen.errors import BadInput
-from datagen.progress import Say, ignore
+from datagen.progress import SILENT, Listener
 from labels.classifier.scores import balanced_accuracy, bootstrap
 from labels.interval import Interval
 from labels.schema import HEALTHY
@@ -24,14 +25,14 @@ SEED = 31
 
 
 def learning_curve(
-    training: TrainingSet, learning: Learning, estimator: Any | None = None, step: Say = ignore
+    training: TrainingSet, learning: Learning, estimator: Any | None = None, listener: Listener = SILENT
 ) -> dict[str, list[dict[str, Any]]]:
     """How well the location of spalls is told after learning from growing shares of the bearings, by model.
 
     A quarter of the bearings is held out. Each point gives the number of `bearings` learned from, and the `value` of
     the balanced accuracy over the held-out records, without added noise, with the ends `low` and `high` of its interval
-    over bearings. Shares that cannot be learned from are left out. The models are the learners that `learning` names,
-    or copies of the user's `estimator`, which must not be fitted yet; `step` is called with how far it has got.
+    over bearings. Shares that cannot be learned from are left out, and the `listener` is told why. The models are the
+    learners that `learning` names, or copies of the user's `estimator`, which must not be fitted yet.
     """
     generator = np.random.default_rng(SEED)
     bearings = generator.permutation(np.unique(training.bearings))
@@ -41,12 +42,13 @@ def learning_curve(
     counts = {min(others.size, max(FEWEST_AT_A_POINT, round(share * others.size))) for share in SHARES}
     curve: dict[str, list[dict[str, Any]]] = {}
     for count in sorted(counts):
-        step(f"learning curve: {count} of {others.size} bearings")
+        listener.step(f"learning curve: {count} of {others.size} bearings")
         part = training.subset(np.isin(training.bearings, others[:count]))
         fresh = None if estimator is None else copy_of(estimator, learning.estimator or "")
         try:
             models = train(part, learning, fresh)
-        except BadInput:
+        except BadInput as problem:
+            listener.say(f"learning curve: none from {counted(count, 'virtual bearing')}: {problem.problem}")
             continue
         for model in models:
             score = _score(model, held_out)

@@ -27,7 +27,7 @@ def learn(benchmark: Benchmark, source: TrainingSource, listener: Listener) -> T
     # The curve comes first: it needs copies of the user's estimator from before it has learned.
     curve = None
     if benchmark.learning_curve:
-        curve = learning_curve(model_input, benchmark.learning, benchmark.estimator, listener.step)
+        curve = learning_curve(model_input, benchmark.learning, benchmark.estimator, listener)
     models = train(model_input, benchmark.learning, benchmark.estimator, listener.step)
     listener.step("importances of the features")
     facts: dict[str, Any] = {

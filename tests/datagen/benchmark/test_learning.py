@@ -10,6 +10,7 @@ from datagen.benchmark.options import Learning
 from datagen.benchmark.rows import Rows, joined
 from datagen.benchmark.training import ROWS_TO_TRY, TrainingSet
 from datagen.benchmark.verdicts import vote
+from datagen.progress import Listener
 from labels.classifier.classes import CLASSES
 from labels.features.table import FEATURE_NAMES
 
@@ -63,10 +64,15 @@ def test_few_bearings_leave_one_point_and_a_wide_interval():
     assert point["high"] - point["low"] > 0.2  # three bearings
 
 
-def test_shares_that_cannot_be_learned_from_are_left_out():
-    few = made_up(60)
+def test_shares_that_cannot_be_learned_from_are_left_out_and_told():
+    few, told = made_up(60), []
     healthy = ~np.isin(few.bearings, ["b58", "b59"])
-    assert learning_curve(replace(few, classes=np.where(healthy, "healthy", few.classes)), Learning("logistic")) == {}
+    one_class = replace(few, classes=np.where(healthy, "healthy", few.classes))
+    assert learning_curve(one_class, Learning("logistic"), listener=Listener(say=told.append)) == {}
+    assert [line.partition(" virtual")[0] for line in told] == [
+        f"learning curve: none from {bearings}" for bearings in (10, 11, 22, 45)
+    ]
+    assert all("cannot learn" in line for line in told)
 
 
 def test_more_records_of_the_same_bearings_make_no_interval_narrower():

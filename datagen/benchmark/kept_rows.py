@@ -92,12 +92,26 @@ def keep(folder: Path, file: Path = KEPT_FILE) -> int:
     return len(labels)
 
 
+def _require_whole_transfer(folder: Path) -> None:
+    """Raise BadInput unless the corpus in a `folder` is all of the recipe transfer, as it is now."""
+    from datagen.recipes.recipe import load_recipe
+
+    manifest, recipe = Corpus(folder).manifest, load_recipe("transfer")
+    if manifest.identity.recipe_hash != recipe.hash[:16]:
+        raise BadInput("this is no corpus of the recipe transfer as it is now", str(folder))
+    if manifest.records < manifest.recipe_records:
+        problem = f"this corpus has {manifest.records} of {manifest.recipe_records} records"
+        raise BadInput(problem, str(folder), allowed="all of the recipe transfer")
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     """Keep the rows of a corpus; exit code 0, or 2 with a message."""
     parser = argparse.ArgumentParser(prog="python -m datagen.benchmark.kept_rows", description=__doc__)
     parser.add_argument("corpus", type=Path, help="folder of a whole corpus of the recipe transfer")
+    folder = parser.parse_args(arguments).corpus
     try:
-        kept = keep(parser.parse_args(arguments).corpus)
+        _require_whole_transfer(folder)
+        kept = keep(folder)
     except BadInput as problem:
         print(problem, file=sys.stderr)
         return 2

@@ -26,7 +26,8 @@ MACHINES = 240
 
 
 def ingredients_of(train: Path) -> Ingredients | None:
-    """The ingredients that `--train impulse-trains` or `impulse-trains-without-NAME` asks for; None for a folder.
+    """The ingredients that `--train impulse-trains` or `impulse-trains-without-NAME` asks for; None for
+    anything else.
 
     Raises BadInput for a name that is no ingredient.
     """
@@ -37,8 +38,8 @@ def ingredients_of(train: Path) -> Ingredients | None:
     left_out = asked[1]
     names = [field.name for field in fields(Ingredients)]
     if left_out is not None and left_out not in names:
-        allowed = ", ".join(f"{NAME}-without-{name}" for name in names)
-        raise BadInput(field="--train", value=text, allowed=f"a folder, {NAME}, {allowed}")
+        allowed = ", ".join((NAME, *(f"{NAME}-without-{name}" for name in names)))
+        raise BadInput("no such ingredient", field="--train", value=text, allowed=allowed)
     return Ingredients(**{left_out: False}) if left_out else Ingredients()
 
 

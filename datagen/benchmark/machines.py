@@ -58,7 +58,7 @@ def unseen_records(tested: Corpus, learned: LearnedMachines) -> pandas.DataFrame
     kept = ~np.isin(of_records, learned.seen) & (~np.isin(of_records, learned.known) | (labels["split"] == TEST))
     chosen = labels[kept | (of_records == "")]
     if chosen.empty:
-        problem = "all its virtual bearings, or all outside its split test, are those of --train"
+        problem = "all its virtual bearings, or all outside its split test, were learned from"
         allowed = "a corpus of a recipe with another seed, or one with a split test"
         raise BadInput(problem, str(tested.folder), "--test", None, allowed)
     return chosen

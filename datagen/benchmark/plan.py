@@ -39,7 +39,8 @@ def training_reading_of(learning: Learning) -> Reading:
 class Benchmark:
     """What is learned from, what is tested on, and how.
 
-    `train` is a corpus, or a file with models learned from one; newly trained models are saved at `save`, if given.
+    `train` is a corpus, a file with models that have learned already, or one of the names that stand for something to
+    learn from (`training_source.py`); newly trained models are saved at `save`, if given.
     `estimator` is the user's own that the options name, None for our learners. With `learning_curve`, models are also
     learned from fractions of the bearings.
     """

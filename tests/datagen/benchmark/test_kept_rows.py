@@ -99,7 +99,7 @@ def test_classify_learns_from_them_where_nothing_else_is_named(other_corpus, tmp
 def test_no_record_is_scored_of_a_machine_that_they_hold(beginning):
     done = run("classify", "--learner", "logistic", "--test", beginning)
     assert done.exit_code == 2
-    assert "all its virtual bearings" in done.output
+    assert "all its virtual bearings, or all outside its split test, were learned from" in " ".join(done.output.split())
 
 
 @pytest.mark.parametrize(
@@ -121,6 +121,15 @@ def test_rows_of_other_features_are_refused(monkeypatch):
     monkeypatch.setattr(kept_rows, "FEATURE_NAMES", FEATURE_NAMES[::-1])
     with pytest.raises(BadInput, match="features have changed"):
         KeptRows()
+
+
+def test_a_corpus_of_another_recipe_or_a_part_of_transfer_leaves_the_file_as_it_is(tiny_corpus, beginning, capsys):
+    before = kept_rows.KEPT_FILE.read_bytes()
+    assert main([str(tiny_corpus)]) == 2
+    assert "no corpus of the recipe transfer" in capsys.readouterr().err
+    assert main([str(beginning)]) == 2
+    assert "4 of 1920 records" in capsys.readouterr().err
+    assert kept_rows.KEPT_FILE.read_bytes() == before
 
 
 def test_a_folder_without_a_corpus_leaves_the_file_as_it_is(tmp_path, capsys):

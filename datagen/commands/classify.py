@@ -63,7 +63,8 @@ OPTIONS = {
         help="Reject a record if its most likely answer has a lower probability than this.",
     ),
     "noise_db": Option(
-        metavar="DB,DB", help="Also score recordings of faults with white noise added at these signal-to-noise ratios."
+        metavar="DB,DB",
+        help="Also score recordings, of corpora with faults, with white noise added at these signal-to-noise ratios.",
     ),
     "noise_draws": Option(metavar="N", min=1, help="How many times that noise is drawn."),
 }

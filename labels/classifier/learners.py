@@ -1,4 +1,4 @@
-"""The three learners, each a scikit-learn pipeline with a fixed seed; docs/transfer.md says what was chosen on what."""
+"""The three learners, each a scikit-learn pipeline with a fixed seed; docs/classifier_choices.md says why these."""
 
 from __future__ import annotations
 

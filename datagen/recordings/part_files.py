@@ -100,7 +100,9 @@ class PartFiles:
         said, idle = self._rows_of(paths, rows)
         for path in paths:
             if path not in said:
-                raise BadInput(f"{self.root.name(path)} is not in the table {self.recording.table}", self.place)
+                problem = f"{self.root.name(path)} is not in the table {self.recording.table}"
+                allowed = "a row for each file that files finds, its cells empty where nothing is known, or leave_out"
+                raise BadInput(problem, self.place, allowed=allowed)
         return [(path, row) for path in paths for row in said[path]], absent + list(map(self._absent, idle))
 
     def _rows_of(self, paths: list[Path], rows: list[TableRow]) -> tuple[dict[Path, list[TableRow]], list[TableRow]]:

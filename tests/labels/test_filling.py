@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.signal import lfilter
 
 from labels.filling import foretold, straight
 
@@ -40,3 +41,25 @@ def test_what_is_too_short_to_learn_from_gets_straight_lines():
     bad = np.array([3, 9, 15, 21, 27])
     assert foretold(short, bad).tolist() == straight(short, bad).tolist()
     assert straight(short, bad)[9] == pytest.approx(0.5 * (short[8] + short[10]))
+
+
+def ringing(size, seed):
+    """Blows that ring down, which no time runs backwards in, with a little noise."""
+    generator = np.random.default_rng(seed)
+    force = np.where(np.arange(size) % 97 == 5, 1.0, 0.0) + 0.02 * generator.standard_normal(size)
+    return lfilter([1.0], [1.0, -1.6, 0.9], force)
+
+
+def test_what_comes_before_says_as_much_as_what_comes_after():
+    signal = ringing(4000, 6)
+    bad = np.array([0, 1, 310, 311, 312, 1500, 2222, 2223, 3990])
+    backwards = foretold(signal[::-1], signal.size - 1 - bad[::-1])[::-1]
+    assert foretold(signal, bad) == pytest.approx(backwards, abs=1e-9)
+
+
+def test_weights_are_learned_from_all_of_a_long_signal():
+    """Quiet noise, longer than all stretches that weights are learned from, and then a tone."""
+    tone = np.where(np.arange(45_000) < 23_000, 0.0, np.sin(0.3 * np.arange(45_000)))
+    signal = tone + 1e-3 * np.random.default_rng(7).standard_normal(tone.size)
+    bad = np.arange(40_000, 40_006)
+    assert foretold(signal, bad)[bad] == pytest.approx(tone[bad], abs=0.05)

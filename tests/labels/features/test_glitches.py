@@ -65,10 +65,13 @@ def test_what_comes_oftener_than_allowed_is_the_machines():
         0.05 * noise() + 5.0 * impacts(400.0, 5200.0),
         0.05 * noise() + 5.0 * impacts(2500.0, 3000.0),
         np.zeros(SIZE),
+        np.where(TIME == 1.0, 5.0, 0.0),
         np.arange(20.0),
+        np.where(np.arange(24) == 7, 30.0, noise()[:24]),
     ],
     ids=["noise", "held", "offset", "drift", "clipped", "rounded", "dropouts", "step"]
-    + ["ringing", "damped ringing", "high ringing", "sharp ringing", "silence", "few samples"],
+    + ["ringing", "damped ringing", "high ringing", "sharp ringing", "silence", "one sample in silence"]
+    + ["few samples", "a high one of few samples"],
 )
 def test_nothing_else_is_touched(signal):
     found, count = without_glitches(signal, np.inf)

@@ -53,6 +53,8 @@ def test_a_jump_is_found_near_the_ends_too(place):
         1e-3 * noise() + np.sin(2.0 * np.pi * 0.4 * TIME / TURN),
         noise() + 500.0 * np.exp(-4000.0 * np.maximum(TIME - 1.0, 0.0)) * (TIME > 1.0),
         noise() + 100.0 * ((TIME > 1.0) & (TIME < 1.0 + 0.3 * TURN)),
+        noise() + 100.0 * ((TIME > 1.0) & (TIME < 1.0 + 0.8 * TURN)),
+        noise() + 30.0 * np.clip((TIME - 1.0) / (4.0 * TURN), 0.0, 1.0),
         np.where(TIME > 1.0, noise(), 0.0),
         noise() + 50.0 * np.sign(np.sin(2.0 * np.pi * 0.2 * TIME / TURN)),
         np.zeros(TIME.size),
@@ -60,7 +62,7 @@ def test_a_jump_is_found_near_the_ends_too(place):
     ],
     ids=[
         "noise", "a small jump", "a steep ramp", "a parabola", "slow swing", "swing", "a shock", "a short bump",
-        "a start", "many jumps", "silence", "a step in silence",
+        "a bump of most of a turn", "a drift over four turns", "a start", "many jumps", "silence", "a step in silence",
     ],
 )  # fmt: skip
 def test_what_is_no_jump_is_left_as_it_is(signal):
@@ -71,3 +73,37 @@ def test_what_is_no_jump_is_left_as_it_is(signal):
 
 def test_few_turns_say_nothing_of_what_is_usual():
     assert without_jumps(noise() + steps(30.0), FEWEST_TURNS - 0.5)[1] == 0
+    assert without_jumps(noise() + steps(30.0), FEWEST_TURNS)[1] == 1
+
+
+@pytest.mark.parametrize("turns", [TIME.size / 15.0, 2.0 * TIME.size])
+def test_nor_do_turns_of_a_few_samples(turns):
+    """Parts of 16 samples are looked at where the shaft turns faster, and none without a sample."""
+    found, count = without_jumps(noise() + steps(30.0), turns)
+    assert count == 1
+    assert np.abs(np.median(found[TIME.size // 2 :]) - np.median(found[: TIME.size // 2])) < 1.0
+    short = noise()[:100]
+    assert without_jumps(short, 50.0)[0] is short
+
+
+def test_what_is_given_is_left_as_it_was():
+    given = noise() + steps(30.0)
+    kept = given.copy()
+    without_jumps(given, TURNS)
+    assert np.array_equal(given, kept)
+
+
+def test_a_jump_in_what_comes_once_a_turn_has_its_height_over_whole_turns():
+    swinging = noise() + 2.0 * np.sin(2.0 * np.pi * TIME / TURN)
+    found, count = without_jumps(swinging + steps(30.0), TURNS)
+    assert count == 1
+    # Over a quarter of a turn to both sides a swing of 2 changes by 2.5; medians of two turns scatter by 0.1.
+    assert np.abs(found - swinging).max() < 0.5
+
+
+def test_blows_neither_hide_a_jump_nor_change_its_height():
+    """A blow every third turn, one at the jump too, whose mean over a turn is six deviations of the noise."""
+    blows = 1000.0 * np.exp(-4000.0 * np.mod(TIME - 1.0, 3.0 * TURN))
+    found, count = without_jumps(noise() + blows + 30.0 * (TIME >= 1.0), TURNS)
+    assert count == 1
+    assert np.abs(found - noise() - blows).max() < 0.5

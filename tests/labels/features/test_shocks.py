@@ -33,6 +33,14 @@ def test_a_shock_is_cut_and_nothing_else_is():
     np.testing.assert_array_equal(found[far], shocked[far])
 
 
+def test_what_rings_on_in_the_turn_behind_a_shock_is_cut_too():
+    quiet = noise()
+    # 6 ms before the end of a turn: in the next one it is 200 e^(-2.4) = 18, six times the usual, which is no shock.
+    found, count = without_shocks(quiet + shock(200.0, 0.714), TURNS)
+    assert count == 1
+    assert np.abs(found[TIME >= 0.72]).max() < 1.5 * np.abs(quiet).max()
+
+
 def test_a_shock_that_rings_over_several_turns_is_one():
     since = np.maximum(TIME - 0.7, 0.0)
     long = 500.0 * np.exp(-15.0 * since) * np.sin(2.0 * np.pi * 2000.0 * since)

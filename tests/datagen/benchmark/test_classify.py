@@ -3,13 +3,17 @@
 import json
 import shutil
 import sys
+from dataclasses import replace
 
 import pandas
 import pytest
 from command_line import run
 
+from datagen.benchmark.options import Learning, Options, Scoring
+from datagen.benchmark.request import benchmark_of
 from datagen.benchmark.windows import WINDOW_SAMPLES
 from datagen.corpus import Corpus
+from datagen.judging.stated_speed import SPEED_ERROR
 from labels.features.table import FEATURE_NAMES
 
 pytestmark = pytest.mark.usefixtures("short_records_are_judged")
@@ -109,34 +113,67 @@ def test_ones_own_code_is_named_in_messages_as_it_was_given(classify):
 
 
 @pytest.mark.parametrize(
-    "options",
+    ("options", "told"),
     [
-        ("--learner", "oracle"),
-        ("--estimator", "nowhere:Thing"),
-        ("--input", "windows"),
-        ("--noise-db", "loud"),
-        ("--noise-db=-10", "--input", "windows", "--estimator", "own_estimators:always_outer"),
-        ("--learning-curve", "--estimator", "own_estimators:always_outer"),
-        ("--noise-db", "nan"),
-        ("--noise-db=-10,-101",),
-        ("--noise-db", "inf"),
-        ("--bandwidth", "nan"),
-        ("--estimator", ""),
-        ("--estimator", "own_estimators:always_outer", "--learner", "forest"),
-        ("--estimator", "own_estimators:nothing"),
-        ("--estimator", "own_estimators:rule"),
-        ("--estimator", "own_estimators:rejected"),
-        ("--test", "nowhere"),
-        ("--out", __file__),
-        ("--out", f"{__file__}/report"),
-        ("--speed-error", "0.1"),
+        (("--learner", "oracle"), '--learner = "oracle"; allowed: forest, logistic, boosting, all'),
+        (("--estimator", "nowhere:Thing"), '--estimator = "nowhere:Thing"'),
+        (("--input", "windows"), '--input = "windows": our learners take features; allowed: with --estimator'),
+        (("--input", "sound", "--estimator", "own_estimators:Guesser"), "allowed: features, windows"),
+        (("--noise-db", "loud"), '--noise-db = "loud"; allowed: numbers from -100 to 100 dB'),
+        (
+            ("--noise-db=-10", "--input", "windows", "--estimator", "own_estimators:always_outer"),
+            "noise is added where features are computed",
+        ),
+        (
+            ("--learning-curve", "--estimator", "own_estimators:always_outer"),
+            "always_outer does not learn",
+        ),
+        (("--noise-db", "nan"), '--noise-db = "nan"; allowed: numbers from -100 to 100 dB'),
+        (("--noise-db=-10,-101",), "allowed: numbers from -100 to 100 dB"),
+        (("--noise-db", "inf"), "allowed: numbers from -100 to 100 dB"),
+        (("--noise-db", "0,101"), "allowed: numbers from -100 to 100 dB"),
+        (("--bandwidth", "nan"), "--bandwidth = nan; allowed: 1000 Hz or more"),
+        (("--bandwidth", "inf"), "--bandwidth = inf; allowed: 1000 Hz or more"),
+        (("--bandwidth", "999"), "--bandwidth = 999.0; allowed: 1000 Hz or more"),
+        (("--estimator", ""), "--estimator"),
+        (
+            ("--estimator", "own_estimators:always_outer", "--learner", "forest"),
+            '--learner = "forest": an estimator',
+        ),
+        (("--estimator", "own_estimators:nothing"), "it can be neither fitted nor asked"),
+        (("--estimator", "own_estimators:rule"), 'reports hold something else under the name "rule"'),
+        (("--estimator", "own_estimators:rejected"), 'reports hold something else under the name "rejected"'),
+        (("--test", "nowhere"), '--test = "nowhere": no such file or folder'),
+        (("--test", "."), '--test = "."'),
+        (("--out", __file__), "--out"),
+        (("--out", f"{__file__}/report"), "--out"),
+        (("--speed-error", "0.1"), "--speed-error = 0.1; allowed: 0 to 0.02"),
+        (("--speed-error=-0.01",), "--speed-error = -0.01; allowed: 0 to 0.02"),
     ],
 )
-def test_options_that_cannot_be_are_refused_before_anything_is_read(classify, options, monkeypatch):
+def test_options_that_cannot_be_are_refused_before_anything_is_read(classify, options, told, monkeypatch):
     monkeypatch.setattr("datagen.benchmark.training.read_rows", None)
     done, _ = classify(*options)
     assert done.exit_code == 2
     assert done.output.count("\n") == 1
+    assert told in done.output
+
+
+def test_options_at_the_edges_of_what_is_allowed_are_taken(tiny_corpus, other_corpus, tmp_path):
+    learning = Learning(bandwidth=1000.0, speed_error=0.0)
+    asked = (tiny_corpus, (other_corpus,), Options(learning, Scoring(noise_db="-100,100", reject=1.0)))
+    plan = benchmark_of(*asked, learning_curve=False, workers=1, out=None, save=tmp_path / "saved")
+    assert (plan.learning, plan.scoring.levels, plan.save) == (learning, (-100.0, 100.0), tmp_path / "saved")
+    kept = replace(asked[2], scoring=Scoring(reject=0.0), learning=Learning(speed_error=SPEED_ERROR))
+    assert benchmark_of(*asked[:2], kept, learning_curve=True, workers=1, out=None, save=None).learning_curve
+
+
+def test_what_can_be_asked_once_it_has_learned_is_an_estimator(tiny_corpus, other_corpus, tmp_path, monkeypatch):
+    (tmp_path / "late.py").write_text("class Late:\n    def fit(self, X, y):\n        return self\nlate = Late()\n")
+    monkeypatch.syspath_prepend(str(tmp_path))
+    options = Options(Learning(estimator="late:late"), Scoring())
+    plan = benchmark_of(tiny_corpus, (other_corpus,), options, learning_curve=True, workers=1, out=None, save=None)
+    assert type(plan.estimator).__name__ == "Late"
 
 
 def test_a_corpus_is_not_scored_twice(tiny_corpus):

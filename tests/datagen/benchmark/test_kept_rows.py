@@ -10,7 +10,7 @@ from datagen.benchmark import kept_rows
 from datagen.benchmark.corpus_rows import read_rows
 from datagen.benchmark.kept_rows import KeptRows, keep, main
 from datagen.benchmark.machines import learned_machines
-from datagen.benchmark.options import Learning
+from datagen.benchmark.options import Learning, Options
 from datagen.benchmark.plan import Benchmark, training_reading_of
 from datagen.benchmark.training import labelled
 from datagen.benchmark.training_source import CorpusRecords
@@ -86,6 +86,26 @@ def test_the_first_records_alone_are_learned_from():
     assert np.unique(kept.machines.seen).size == np.unique(kept.features(SILENT).bearings).size
     with pytest.raises(BadInput, match="too few virtual bearings"):
         KeptRows(first=3)
+
+
+@pytest.mark.parametrize("others_first", [True, False])
+def test_the_split_test_is_left_out_where_any_corpus_to_score_has_the_same_machines(
+    others_first, divided, other_corpus
+):
+    tests = (other_corpus, divided) if others_first else (divided, other_corpus)
+    labels = Corpus(divided).labels
+    left = set(labels.loc[labels["split"] != "test", "bearing_id"])
+    machines = CorpusRecords(Benchmark(divided, tests)).machines
+    assert {name.replace("7-", "tiny-") for name in machines.seen} == left
+    assert len(np.unique(machines.known)) == labels["bearing_id"].nunique() > len(left)
+    alone = CorpusRecords(Benchmark(divided, (other_corpus,))).machines
+    assert set(alone.seen) == set(alone.known)
+
+
+def test_of_the_first_records_alone_the_machines_are_learned_from(divided, other_corpus):
+    few = Benchmark(divided, (other_corpus,), Options(Learning(first=8)))
+    bearings = Corpus(divided).labels.iloc[:8]["bearing_id"]
+    assert len(np.unique(CorpusRecords(few).machines.seen)) == bearings.nunique()
 
 
 def test_classify_learns_from_them_where_nothing_else_is_named(other_corpus, tmp_path):

@@ -8,14 +8,14 @@ import pandas
 import pytest
 
 from datagen.benchmark.corpus_rows import read_rows
-from datagen.benchmark.fitness import TOO_SHORT
+from datagen.benchmark.fitness import TOO_FAST, TOO_SHORT
 from datagen.benchmark.reading_policy import Reading
-from datagen.benchmark.record_rows import RecordFacts, RecordRows, piece_count, record_rows, signal_rows
+from datagen.benchmark.record_rows import RecordFacts, RecordRows, Row, piece_count, record_rows, signal_rows
 from datagen.benchmark.windows import common_rate, read_windows
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
 from datagen.judging.known import known_kinematics
-from labels.classifier.liveness import DEAD
+from labels.classifier.liveness import DEAD, STOPPED
 from labels.features.analysis import analyse
 from labels.features.table import FEATURE_NAMES
 from labels.features.turning import Turning
@@ -257,3 +257,61 @@ def test_the_speed_that_was_found_is_told_and_not_the_nominal_one():
     found = record_rows(signal[:, None], labels(speed_basis="nominal"), Reading(copies_db=(-18.0, 12.0)))
     assert found.facts.found_rpm == pytest.approx(60.0 * 29.1, rel=1e-3)
     assert record_rows(shaking(16), labels(), Reading()).facts.found_rpm is None
+
+
+def test_the_speed_that_is_told_is_the_median_of_the_rows_without_added_noise(monkeypatch):
+    found = [(29.0, False), (30.0, False), (35.0, False), (31.0, True), (33.0, True), (34.0, True)]
+    rows = [Row(np.zeros(len(FEATURE_NAMES)), noisy, "", shaft_hz=hz) for hz, noisy in found]
+    monkeypatch.setattr("datagen.benchmark.record_rows.signal_rows", lambda *_: rows)
+    assert record_rows(shaking(3000), labels(), Reading()).facts.found_rpm == pytest.approx(1800.0, rel=1e-12)
+
+
+def test_a_stretch_of_a_record_has_the_part_of_a_changing_speed_that_was_heard_in_it(monkeypatch):
+    """The angle itself is what is heard, so that a stretch tells where it was cut out."""
+    time = np.arange(12_000) / RATE
+    angle, apart = 2.0 * np.pi * (20.0 * time + 10.0 * time**2), []
+
+    def listening(piece, rate, given, bandwidth, turning):
+        apart.append((piece.size, np.abs(piece - turning.angle).max()))
+        return analyse(piece, rate, given, bandwidth, turning)
+
+    monkeypatch.setattr("datagen.benchmark.record_rows.analyse", listening)
+    reading = Reading(copies_db=(140.0, 140.0))  # noise of 1e-7 of the signal's deviation of 60 rad
+    assert len(signal_rows(angle, RATE, known_kinematics(labels()), reading, [3], Turning(angle))) == 3
+    assert [size for size, _ in apart[:2]] == [12_000] * 2
+    assert apart[2][0] < 12_000
+    assert max(far for _, far in apart) < 1e-3
+
+
+def test_components_of_windows_are_too_far_apart_to_tell_mains_where_these_are_short():
+    """At 3010 rpm balls pass the outer race at three times 60 Hz; half a second has components 2 Hz apart."""
+    signal = shaking(int(4 * RATE))
+    assert record_rows(signal, labels(speed_rpm=3010.0), Reading(window=4.0)).facts.in_mains == ("outer",)
+    assert record_rows(signal, labels(speed_rpm=3010.0), Reading(window=0.5)).facts.in_mains == ()
+
+
+def test_a_dead_axis_stays_dead_whatever_noise_is_added():
+    three_values = np.random.default_rng(1).integers(0, 3, 3000).astype(float)
+    assert signal_rows(three_values, RATE, known_kinematics(labels()), Reading(noise_db=0.0), [0]) == []
+
+
+def test_a_window_that_lives_only_in_samples_that_no_transform_takes_is_none():
+    """The last 55 of 1999 samples are dropped, as 1944 have a fast transform."""
+    signal = np.append(np.full(1950, 2.5), np.arange(49.0))
+    assert signal_rows(signal, RATE, known_kinematics(labels()), Reading(), [0]) == []
+
+
+def test_a_record_too_fast_for_the_bandwidth_asked_for_is_rejected():
+    # Balls pass the inner race at 162 Hz, which an envelope of 300 Hz does not show.
+    assert record_rows(shaking(3000), labels(), Reading(bandwidth=300.0)).facts.reason == TOO_FAST
+    assert record_rows(shaking(3000), labels(), Reading()).facts.reason == ""
+
+
+@pytest.mark.parametrize(("silent", "reason"), [((0,), ""), ((0, 1), STOPPED)])
+def test_a_record_is_rejected_where_all_its_rows_are(silent, reason, monkeypatch):
+    def row(axis):
+        return Row(np.zeros(len(FEATURE_NAMES)), False, STOPPED if axis in silent else "", shaft_hz=30.0)
+
+    monkeypatch.setattr("datagen.benchmark.record_rows.signal_rows", lambda *given: [row(given[4][-1])])
+    found = record_rows(np.hstack([shaking(3000), shaking(3000)]), labels(), Reading())
+    assert (len(found.rows), found.facts.reason) == (2, reason)

@@ -8,7 +8,7 @@ import pytest
 from labels.features.conditioning import condition, local_mean_power
 from labels.features.envelopes import envelope_spectra
 from labels.features.families import evidence, find_family, harmonic_evidence
-from labels.features.known_lines import mains_components, without_shaft
+from labels.features.known_lines import mains_components, near_multiples, without_shaft
 from labels.features.lines import Lines, lines_in
 from labels.features.modulation import line_strength
 
@@ -96,6 +96,11 @@ def test_nothing_is_taken_off_for_the_shaft_in_a_record_of_a_few_turns():
     assert without_shaft(excess, 1.0, 10.0).min() == 1.0
 
 
+def test_what_lies_near_a_multiple_is_taken_for_it_and_what_lies_near_zero_is_not():
+    taken = np.flatnonzero(near_multiples(50, 0.1, 2.0, 0.25))
+    assert taken.tolist() == [18, 19, 20, 21, 22, 38, 39, 40, 41, 42]
+
+
 def test_lines_of_the_mains_do_not_count_but_those_beside_them_do():
     mains = mains_components(4000, 0.05)
     assert (mains[2400], mains[2500]) == (True, False)  # 120 and 125 Hz
@@ -106,6 +111,19 @@ def test_lines_of_the_mains_do_not_count_but_those_beside_them_do():
 def test_lines_of_the_mains_do_not_count_where_a_stated_rate_is_a_little_off(rate_error):
     at = np.round(np.array([100.0, 120.0]) * (1.0 + rate_error) / 0.05).astype(int)
     assert mains_components(40_000, 0.05)[at].all()
+
+
+def test_a_line_of_the_mains_takes_its_neighbours_and_0_hz_is_none():
+    # 1 Hz apart: 1.01 Hz to both sides, and 0.6 % of the frequency or 0.8 Hz.
+    places = np.flatnonzero(mains_components(195, 1.0)).tolist()
+    assert places == [line + beside for line in (50, 60, 100, 120, 150, 180) for beside in (-1, 0, 1)]
+
+
+def test_high_multiples_of_the_mains_may_be_off_by_a_thousandth():
+    mains = mains_components(70_000, 0.05)
+    # 3000 Hz is a multiple of both; 2.7 Hz are 0.09 % of it, 3.5 Hz 0.12 %.
+    assert mains[round(3002.7 / 0.05)]
+    assert not mains[round(3003.5 / 0.05)]
 
 
 def test_high_multiples_of_the_mains_cover_no_more_of_the_axis_than_low_ones_by_far():

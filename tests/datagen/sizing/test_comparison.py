@@ -8,12 +8,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from datagen.sizing.comparison import score_record
+from datagen.sizing.comparison import CHANGING, score_record
 from datagen.sizing.sized_records import SizedRecord
 from datagen.sizing.stored_record import nominal_period
 from labels.spall_size.event_truth import EventTruth
 from labels.spall_size.situation import Situation
 from labels.spall_size.size_estimate import SizeEstimate, SizeOutcome
+from labels.spall_size.static_release import release_arc
 
 RATE = 65536.0
 LAG = 100.0 / RATE
@@ -87,6 +88,69 @@ def test_events_count_within_100_microseconds_and_within_half_a_degree() -> None
             times = np.column_stack([first, first + LAG]) + late
             scored = score_record(sized, Says(replace(CONSTANT, event_times=times)))
             assert getattr(scored, kind).matched == matched
+
+
+TOLD = SizeEstimate(
+    SizeOutcome.ESTIMATED, "constant", "inner", lag=LAG, lag_interval=(1.1e-3, 1.9e-3), lag_arc=0.11, extent=0.2,
+    extent_interval=(0.15, 0.3), extent_mm=2.5, extent_mm_interval=(2.0, 3.5), candidates=(0.2, 0.7), trust=0.8,
+    event_times=np.array([[0.1, 0.2]]),
+)  # fmt: skip
+
+
+def test_truth_and_answer_have_each_number_from_its_own() -> None:
+    sized = record_at("inner")
+    own = {name: float(place) for place, name in enumerate(("snr_db", "load_n", "extent_mm", "extent_spacing"), 3)}
+    labels = sized.labels | {name: f"the {name}" for name in NAMES} | own | {"record": 17, "extent": 0.25}
+    scored = score_record(replace(sized, labels=labels), Says(TOLD))
+    renamed = {"race": "location", "rate": "rate_hz"}
+    for name in ("record", *NAMES, *own, "extent", "speed_rpm", "race", "rate"):
+        assert getattr(scored.truth, name) == labels[renamed.get(name, name)]
+    assert scored.truth.pass_period == pytest.approx(1.0 / (30.0 * MACHINE.bearing().bpfi))
+    assert (scored.truth.known, math.isnan(scored.truth.lag)) == (False, True)
+    told = "method race trust lag lag_interval lag_arc extent extent_interval extent_mm extent_mm_interval candidates"
+    for name in told.split():
+        assert getattr(scored.answer, name) == getattr(TOLD, name)
+    assert (scored.answer.outcome, scored.answer.reason, scored.answer.known_size_factor) == ("estimated", "", 1.0)
+    assert scored.answer.candidates_mm == pytest.approx((2.5, 8.75))  # 12.5 mm for a rad
+    assert scored.answer.event_times.tolist() == [[0.1, 0.2]]
+
+
+def test_the_lag_of_a_known_truth_is_told() -> None:
+    first = 0.01 * np.arange(1.0, 8.0)
+    truth = EventTruth(first, first + LAG, np.zeros(7, dtype=np.bool_))
+    scored = score_record(replace(record_at("inner"), truth=truth), Says(TOLD))
+    assert scored.truth.known
+    assert scored.truth.lag == pytest.approx(LAG, rel=1e-9)
+
+
+@pytest.mark.parametrize("blind", [False, True])
+def test_the_static_rule_adds_two_release_arcs_to_the_arc_between_the_events_where_the_load_is_known(
+    blind: bool,
+) -> None:
+    loaded = replace(MACHINE, load=346.0, load_deflection=6e9)
+    scored = score_record(replace(record_at("inner"), situation=loaded.without_load() if blind else loaded), Says(TOLD))
+    assert scored.answer.load_known != blind
+    if blind:
+        assert math.isnan(scored.static_arc)
+    else:
+        assert scored.static_arc == pytest.approx(0.11 + 2.0 * release_arc(loaded.bearing(), "inner", 346.0), rel=1e-12)
+
+
+def test_a_known_size_changes_what_was_found_and_nothing_else() -> None:
+    found = score_record(record_at("inner"), Says(TOLD), 1.05)
+    assert (found.answer.extent, found.answer.lag) == (pytest.approx(0.21), LAG)
+    assert found.answer.known_size_factor == 1.05
+    silent = SizeEstimate(SizeOutcome.NO_PASSES, "constant")
+    nothing = score_record(record_at("inner"), Says(silent), 1.05)
+    assert (nothing.answer.method, nothing.answer.known_size_factor) == ("constant", 1.0)
+    assert (nothing.answer.outcome, nothing.answer.reason) == ("no_passes", SizeOutcome.NO_PASSES.value)
+    assert math.isnan(nothing.static_arc)
+
+
+@pytest.mark.parametrize(("estimate", "told"), [(TOLD, ""), (SizeEstimate(SizeOutcome.NO_PASSES, ""), CHANGING)])
+def test_a_changing_speed_is_a_reason_only_where_there_is_no_size(estimate: SizeEstimate, told: str) -> None:
+    scored = score_record(replace(record_at("inner"), speed_changes=True), Says(estimate))
+    assert scored.answer.reason == estimate.reason + told
 
 
 @pytest.mark.parametrize(("location", "order"), [("outer", "bpfo"), ("inner", "bpfi"), ("none", "bpfo")])

@@ -93,6 +93,7 @@ def test_the_other_records_of_the_machine_are_corrected_and_no_others(corpus: Pa
     assert "known size of another record" in result["records"][1]["method"]
     (known,) = result["known_sizes"]
     assert (known["record"], known["machine"], known["corrected"]) == (0, "one", 1)
+    assert (known["known_mm"], known["estimated_mm"], known["factor"]) == (2.5, 2.0, factor)
     assert known["arc_error_with"] is None
     assert "changes the sizes of 1 other records of one by +0.25 %" in said
 
@@ -130,9 +131,11 @@ def test_the_effect_of_a_known_size_is_the_error_of_the_others_of_its_machine_wi
         scored({"record": 3, "bearing_id": "one", "known": False}, corrected),  # of unknown truth
         scored({"record": 4, "bearing_id": "one"}, corrected | {"extent": math.nan}),  # without an estimate
         scored({"record": 5, "bearing_id": "two"}),
+        # In which a whole ball spacing may hide: such are not scored.
+        scored({"record": 6, "bearing_id": "one", "extent_spacing": 1.4}, corrected | {"extent": 0.2}),
     ]
     (effect,) = with_effect([KnownSize(0, "one", 2.1, 2.0, 1.05)], records)
-    assert effect.corrected == 3
+    assert effect.corrected == 4
     assert effect.arc_error_without == pytest.approx((0.0 + 0.1) / 2, abs=1e-12)  # rounding
     assert effect.arc_error_with == pytest.approx((0.05 + 0.055) / 2, abs=1e-12)
 

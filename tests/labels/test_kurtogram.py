@@ -51,6 +51,13 @@ def test_the_band_holds_a_line_of_every_piece(size, piece):
         low, high = most_impulsive_band(signal, 1000.0, shortest)
         assert holds_a_line((low, high), shortest, 1000.0)
         assert high - low > 1.9 * 1000.0 / shortest  # two components, less rounding
+        # And two of an eighth of the signal, of which the kurtosis is taken; or all that there is, below 475 Hz.
+        assert high - low > min(1.9 * 8.0 * 1000.0 / size, 474.0)
+
+
+def test_an_offset_does_not_choose_the_band(noise):
+    signal = noise + ringing(8500.0, np.arange(100, SIZE, 300))
+    assert most_impulsive_band(1e4 + signal, RATE, SIZE) == most_impulsive_band(signal, RATE, SIZE)
 
 
 @pytest.mark.parametrize("signal", [np.zeros(400), np.full(400, 3.0), np.where(np.arange(400) == 7, 1.0, 0.0)])

@@ -41,3 +41,10 @@ def test_a_span_far_beyond_both_ends_is_silent_but_for_the_signal_in_it():
     assert power[:, well_inside].max(axis=0) == pytest.approx(0.5, rel=0.02)  # half a bin from the top, as above
     _, _, nothing = spectrogram(np.ones(TIME.size), RATE, 5.0, 6.0)
     assert not nothing.any()
+
+
+def test_a_window_that_begins_behind_the_last_sample_or_ends_before_the_first_is_silent():
+    half = FEWEST_WINDOW_SAMPLES // 2
+    for centre, sounds in ((TIME.size + half - 2, True), (TIME.size + half, False), (2 - half, True), (-half, False)):
+        _, _, power = spectrogram(np.ones(TIME.size), RATE, centre / RATE, (centre + 1e-6) / RATE)
+        assert power.any() == sounds

@@ -23,6 +23,12 @@ def test_the_component_at_half_the_rate_is_counted_once():
     assert amplitude[-1] == pytest.approx(2.0, rel=1e-12)
 
 
+def test_the_component_at_0_hz_is_counted_once():
+    # cos x (1 - cos x) has the mean -1/2.
+    _, amplitude = amplitude_spectrum(np.cos(2.0 * np.pi * np.arange(64) / 64), 64.0)
+    assert amplitude[:3] == pytest.approx([0.5, 1.0, 0.5], rel=1e-12)
+
+
 def test_without_a_window_the_spectrum_keeps_the_power_of_the_signal():
     signal = np.random.default_rng(2).standard_normal(999)
     _, amplitude = amplitude_spectrum(signal, RATE, "none")
@@ -43,6 +49,8 @@ def test_a_line_is_the_largest_component_within_the_tolerance():
     assert line_amplitude(frequency, amplitude, 4.5, 1.0) == 4.0
     assert line_amplitude(frequency, amplitude, 4.0, 1.0) == 9.0
     assert line_amplitude(frequency, amplitude, 4.0, 0.0) == 4.0
+    # In floats 0.4 lies farther than 0.1 from 0.3.
+    assert line_amplitude(0.1 * frequency, np.where(frequency == 4.0, 7.0, 0.0), 0.3, 0.1) == 7.0
     with pytest.raises(ValueError, match=r"within 4\.5 ± 0\.2 Hz"):
         line_amplitude(frequency, amplitude, 4.5, 0.2)
 

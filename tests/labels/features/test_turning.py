@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from labels.features.analysis import analyse
+from labels.features.conditioning import condition
 from labels.features.kinematics import bearing_kinematics
 from labels.features.orders import measure as measure_orders
 from labels.features.turning import Turning
@@ -118,6 +119,13 @@ def test_only_the_turning_of_the_samples_that_are_used_counts():
     angle = 2.0 * np.pi * (14.0 * np.arange(80_021) / RATE + 1.5 * (np.arange(80_021) / RATE) ** 2)
     found = analyse(np.random.default_rng(6).standard_normal(80_021), RATE, KNOWN, turning=Turning(angle))
     assert found.given.shaft_hz == pytest.approx(20.0, rel=1e-6)
+
+
+def test_no_more_components_are_seen_at_even_angles_than_there_are():
+    quiet = np.random.default_rng(5).standard_normal(2000)
+    for turning in (None, Turning(speeding(14.0, 26.0)[:2000])):
+        found = condition(quiet, RATE, 5000.0, turning)
+        assert (found.slow(10_000).size, found.slow(300).size) == (found.raw.size, 300) == (501, 300)
 
 
 @pytest.mark.parametrize(("start", "stop"), [(14.0, 26.0), (1.0, 39.0)])

@@ -1,14 +1,20 @@
 """Where the lines of a race may lie, and what of a record is looked at."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from labels.features.analysis import Analysis, analyse
-from labels.features.kinematics import bearing_kinematics
+from labels.features.analysis import DECOYS, Analysis, analyse
+from labels.features.families import Family
+from labels.features.kinematics import NOMINAL_WITHIN, bearing_kinematics
+from labels.features.lines import Lines, lines_in
+from labels.features.turning import Turning
 
 RATE, SHAFT = 20_000.0, 25.0
+# Of a bearing's own orders, at which harmonics of one family pass for another's.
+RATIOS = (1 / 2, 2 / 3, 1, 3 / 2, 2)
 KNOWN = bearing_kinematics(9, 39.04e-3, 7.94e-3, 0.0, SHAFT)
 
 
@@ -37,3 +43,101 @@ def test_where_no_line_of_the_shaft_shows_its_speed_they_may_lie_as_far_off_to_b
     # Slip and a speed that is 2 % off, as labels say it may be.
     assert tolerance > max(0.02, noise(0.5).race_window(race)[1])
     assert centre == pytest.approx(KNOWN.pass_order(race) * noise(0.0).speed.shaft_hz)
+
+
+def standing(lines: Lines, places: list[float]) -> list[float]:
+    """The mean excess at the `places` (Hz) in the widest band, over a component to both sides."""
+    return lines.means(np.array(places)[:, None], np.full(len(places), 1.5 * lines.step))[:, 0, 0].tolist()
+
+
+def of_shaft(shaft_hz: float, duration: float) -> np.ndarray:
+    """Harmonics of the shaft, which show its speed."""
+    turn = 2.0 * np.pi * shaft_hz * np.arange(int(RATE * duration)) / RATE
+    return np.asarray(sum(np.cos(k * turn + k) for k in (1, 2, 4, 5, 6, 8)))
+
+
+def test_lines_of_the_shaft_are_left_out_at_the_speed_that_was_found(impulse_train):
+    turns_at = 1.01 * SHAFT  # 101 turns in 4 s, so that each line is one component
+    signal = impulse_train(1.0, duration=4.0, shaft_hz=turns_at, snr_db=3.0) + of_shaft(turns_at, 4.0)
+    found = analyse(signal, RATE, KNOWN)
+    assert found.kinematics == KNOWN.at(found.speed.shaft_hz)
+    assert found.speed.shaft_hz == pytest.approx(turns_at, rel=1e-3)
+    multiples = [k * turns_at for k in (4, 5, 6, 8)]
+    assert min(standing(found.all_envelope_lines, multiples)) > 20.0
+    assert max(standing(found.envelope_lines, multiples)) < 3.0
+    assert min(standing(found.vibration_with_shaft[0], multiples)) > 20.0
+    assert max(standing(found.vibration, multiples)) < 3.0
+
+
+@pytest.mark.parametrize("followed", [False, True])
+def test_mains_are_left_out_where_they_are_lines_and_what_lies_there_at_a_changing_speed_is_not(followed):
+    """Noise that swells 100 times a second, or 100 times in 24 turns of a shaft that makes 24 in the mean."""
+    time = np.arange(80_000) / RATE
+    angle = 2.0 * np.pi * (18.0 * time + 1.5 * time**2)
+    swells = angle * 100.0 / 24.0 if followed else 2.0 * np.pi * 100.0 * time
+    signal = (1.0 + 0.8 * np.cos(swells)) * np.random.default_rng(2).standard_normal(time.size)
+    found = analyse(signal, RATE, KNOWN.at(24.0), turning=Turning(angle) if followed else None)
+    assert standing(found.all_envelope_lines, [100.0])[0] > 20.0
+    assert (standing(found.envelope_lines, [100.0])[0] > 20.0) == followed
+
+
+def test_combs_of_another_shaft_are_left_out_at_a_speed_that_is_as_stated(impulse_train):
+    signal = impulse_train(0.55, duration=6.0, snr_db=-3.0) + of_shaft(SHAFT, 6.0)
+    found = analyse(signal, RATE, KNOWN)
+    assert found.speed.shaft_hz == pytest.approx(SHAFT, rel=1e-3)
+    assert min(standing(found.all_envelope_lines, [0.55 * SHAFT * k for k in (1, 2, 3)])) > 20.0
+    assert max(standing(found.envelope_lines, [0.55 * SHAFT * k for k in (1, 2, 3)])) < 3.0
+
+
+def test_a_comb_of_a_quarter_of_bpfo_is_no_fault_of_sixteen_balls(impulse_train):
+    """Four turns of the cage pass for it, which no comb of another shaft may; one of the race is looked for apart."""
+    known = bearing_kinematics(16, 71.5e-3, 8.407e-3, math.radians(15.17), SHAFT)
+    comb, fault = (
+        analyse(impulse_train(order, duration=4.0, snr_db=0.0) + of_shaft(SHAFT, 4.0), RATE, known)
+        for order in (known.bpfo / 4.0, known.bpfo)
+    )
+    assert comb.outer.evidence.max() < 8.0 < 50.0 < fault.outer.evidence.max()
+
+
+@pytest.mark.parametrize("share", [0.96, 1.04])
+def test_a_fault_at_a_speed_far_from_the_nominal_one_is_no_comb_of_another_shaft(impulse_train, share):
+    nominal, turns_at = replace(KNOWN, speed_within=NOMINAL_WITHIN), share * SHAFT
+    signal = impulse_train(KNOWN.bpfo, duration=4.0, shaft_hz=turns_at, snr_db=0.0) + of_shaft(turns_at, 4.0)
+    assert analyse(signal, RATE, nominal).outer.evidence.max() > 100.0
+
+
+def test_of_two_families_nearly_as_strong_the_one_nearer_to_its_place_is_taken():
+    found = noise(0.5)
+    centre, _ = found.race_window("outer")
+    step, excess = 0.1, np.ones((1, 8000))
+    for k in (1, 2, 3, 4):
+        excess[0, round(k * centre / step)] = 40.0
+        # 1.9 % away, 1.6 deviations of what slip does, costs 1.25 nats; 0.2 a line more are 0.8.
+        excess[0, round(1.019 * k * centre / step)] = 40.2
+    taken = found.race_family(lines_in(excess, step), "outer").fundamental[0]
+    assert taken == pytest.approx(centre, rel=2e-3)
+
+
+@pytest.mark.parametrize(
+    "known",
+    [
+        KNOWN,
+        bearing_kinematics(16, 71.5e-3, 8.407e-3, math.radians(15.17), SHAFT),
+        bearing_kinematics(8, 28.499e-3, 6.746e-3, 0.0, SHAFT),
+        bearing_kinematics(19, 180e-3, 24e-3, math.radians(10.0), SHAFT),
+    ],
+)
+def test_decoys_are_the_strongest_families_in_any_band_far_from_what_a_bearing_makes(known, monkeypatch):
+    asked = []
+
+    def listening(analysis, order):
+        asked.append(order)
+        return Family(np.array([1.0, order, 2.0]), np.zeros((3, 4)), np.zeros(3))
+
+    monkeypatch.setattr(Analysis, "envelope_family", listening)
+    found = analyse(np.random.default_rng(0).standard_normal(20_000), RATE, known).decoys
+    assert found.tolist() == [max(order, 2.0) for order in asked]
+    made = [part * share for part in (known.bpfo, known.bpfi, 2.0 * known.ball_spin) for share in RATIOS]
+    free = [order for order in DECOYS if all(abs(order / one - 1.0) >= 0.05 for one in made)]
+    assert asked == free[:8]
+    assert len(free) < len(DECOYS)

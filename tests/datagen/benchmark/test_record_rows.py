@@ -115,7 +115,15 @@ def test_a_shaft_far_from_its_stated_speed_is_told(stated, basis, far):
 
 def test_rows_tell_the_axis_that_they_are_of():
     found = record_rows(np.column_stack([shaking(3000), shaking(3001)[1:]]), labels(), Reading(window=1500 / RATE))
-    assert [row.axis for row in found.rows] == [0, 0, 1, 1]
+    assert [(row.axis, row.window) for row in found.rows] == [(0, 0), (0, 1), (1, 0), (1, 1)]
+
+
+def test_each_record_has_noise_of_its_own_and_the_same_whenever_it_is_read():
+    signal, noisy = shaking(3000), Reading(noise_db=-10.0)
+    others = ({}, {}, {"record": 2}, {"recording": "s"}, {"bearing_id": "c"})
+    first, again, *rest = (tuple(record_rows(signal, labels(**own), noisy).rows[0].values) for own in others)
+    assert first == again
+    assert len({first, *rest}) == 4
 
 
 def test_each_window_of_a_record_has_its_own_part_of_a_changing_speed(monkeypatch):

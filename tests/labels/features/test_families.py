@@ -7,7 +7,7 @@ import pytest
 
 from labels.features.conditioning import condition, local_mean_power
 from labels.features.envelopes import envelope_spectra
-from labels.features.families import evidence, find_family, harmonic_evidence
+from labels.features.families import evidence, find_family, harmonic_evidence, sideband_evidence, tempered
 from labels.features.known_lines import mains_components, near_multiples, without_shaft
 from labels.features.lines import Lines, lines_in
 from labels.features.modulation import line_strength
@@ -80,6 +80,92 @@ def test_noise_alone_is_hardly_ever_evidence_whatever_the_length_of_the_record()
         excess = np.random.default_rng(count).exponential(1.0, (20, count))
         found = find_family(lines_in(excess, 400.0 / count), 70.0, 0.025, 20.0)
         assert np.median(found.evidence) < 6.0  # a search that was not paid for would give 10 to 20 nats
+
+
+def family_of(height, spread, step=0.1, fundamental=70.0, count=4):
+    """A floor of 1 and lines of that `height` at multiples of the `fundamental` (Hz), `spread` (Hz) wide for each."""
+    excess = np.ones((1, 4000))
+    for k in range(1, count + 1):
+        middle, half = round(k * fundamental / step), round(k * spread / step)
+        excess[0, middle - half : middle + half + 1] = height
+    return lines_in(excess, step)
+
+
+def test_a_family_pays_for_the_places_that_were_searched():
+    # A line is read over 1.5 components, one independent one: a mean of (60 + 0.5) / 1.5.
+    mean = 60.5 / 1.5
+    # 5 % of 70 Hz at the fourth harmonic are 140 components.
+    expected = 4.0 * (mean - 1.0 - math.log(mean)) - math.log(140.0)
+    found = find_family(family_of(60.0, 0.0), 70.0, 0.025, 20.0)
+    assert found.evidence[0] == pytest.approx(expected, rel=1e-9)
+    assert found.parts[0] == pytest.approx(np.full(4, mean - 1.0 - math.log(mean)), rel=1e-9)
+
+
+def test_wide_lines_pay_for_as_many_places_as_they_are_wide():
+    # Harmonic k is 1.2 k Hz wide, 0.06 orders of 20 Hz each: 8 k independent components of a mean of 9.
+    expected = 8.0 * 10.0 * (8.0 - math.log(9.0)) - math.log(14.0 / 1.2)
+    found = find_family(family_of(9.0, 0.6), 70.0, 0.025, 20.0)
+    assert found.evidence[0] == pytest.approx(expected, rel=1e-9)
+    assert found.parts[0] == pytest.approx(8.0 * (8.0 - math.log(9.0)) * np.arange(1.0, 5.0), rel=1e-9)
+
+
+def test_a_fundamental_away_from_its_place_pays_for_the_slip_that_it_takes():
+    lines = family_of(60.0, 0.0, fundamental=71.05)  # 1.5 % above
+    free, slipping = (find_family(lines, 70.0, 0.025, 20.0, prior).evidence[0] for prior in (math.inf, 0.01))
+    assert free - slipping == pytest.approx(0.5 * 1.5**2, rel=1e-9)
+
+
+@pytest.mark.parametrize("beside", [0.025, 0.05, 0.075])
+def test_no_harmonic_slips_through_between_the_places_that_are_searched(beside):
+    """A component of the fourth harmonic is a quarter of one of the first."""
+    found = find_family(family_of(60.0, 0.0, fundamental=70.0 + beside), 70.0, 0.025, 20.0)
+    assert found.fundamental[0] == pytest.approx(70.0 + beside, abs=0.026)
+    assert found.parts[0, 3] > 20.0
+
+
+def test_a_floor_is_no_family_however_few_places_are_searched():
+    floor = lines_in(np.ones((2, 4000)), 0.01)
+    for centre in (4.0, 8.0):  # the widest lines have less than one place there, and more than one
+        assert find_family(floor, centre, 0.025, 20.0).evidence == pytest.approx(np.zeros(2), abs=1e-20)
+
+
+def test_each_band_has_its_own_family():
+    one, other = family_of(60.0, 0.0, fundamental=69.5), family_of(9.0, 0.6, fundamental=70.5)
+    both = find_family(Lines(np.concatenate([one.cumulated, other.cumulated]), 0.1), 70.0, 0.025, 20.0)
+    for band, lines in enumerate((one, other)):
+        alone = find_family(lines, 70.0, 0.025, 20.0)
+        assert both.evidence[band] == alone.evidence[0]
+        assert both.fundamental[band] == alone.fundamental[0] == pytest.approx((69.5, 70.5)[band], abs=0.1)
+        assert both.parts[band].tolist() == alone.parts[0].tolist()
+
+
+def test_strong_lines_count_by_their_logarithm_and_weak_ones_as_they_are():
+    # 12 ln(1 + n / 12): the twelve nats of the knee are 12 ln 2, and 12 (e - 1) are 12.
+    found = tempered(np.array([0.0, 0.012, 12.0, 12.0 * (math.e - 1.0)]))
+    assert found == pytest.approx(np.array([0.0, 0.012, 12.0 * math.log(2.0), 12.0]), rel=1e-3)
+
+
+def test_sidebands_are_looked_for_beside_two_harmonics_of_each_bands_own_fundamental():
+    """Bands at 70 and 75 Hz with sidebands 20 Hz beside, and one without."""
+    excess = np.ones((3, 4000))
+    for band, fundamental in ((0, 70.0), (1, 75.0)):
+        for k, side in ((1, -1.0), (1, 1.0), (2, -1.0), (2, 1.0)):
+            excess[band, round((k * fundamental + side * 20.0) / 0.1)] = 61.0
+    found = sideband_evidence(lines_in(excess, 0.1), np.array([70.0, 75.0, 72.0]), 20.0, 20.0)
+    # 0.02 orders of 20 Hz to both sides: eight components, 8 / 1.5 of them independent.
+    mean = 1.0 + 60.0 / 8.0
+    assert found[:2] == pytest.approx(np.full(2, 4.0 * 8.0 / 1.5 * (mean - 1.0 - math.log(mean))), rel=1e-9)
+    assert found[2] == pytest.approx(0.0, abs=1e-20)
+    swapped = sideband_evidence(lines_in(excess, 0.1), np.array([75.0, 70.0, 72.0]), 20.0, 20.0)
+    assert swapped == pytest.approx(np.zeros(3), abs=1e-20)
+
+
+def test_sidebands_of_a_short_record_are_read_as_single_lines():
+    excess = np.ones((1, 400))
+    excess[0, [50, 90, 120, 160]] = 61.0
+    mean = (61.0 + 0.5) / 1.5
+    found = sideband_evidence(lines_in(excess, 1.0), np.array([70.0]), 20.0, 20.0)
+    assert found[0] == pytest.approx(4.0 * (mean - 1.0 - math.log(mean)), rel=1e-9)
 
 
 def test_lines_of_the_shaft_do_not_count_for_a_family():

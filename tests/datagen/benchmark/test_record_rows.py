@@ -10,12 +10,20 @@ import pytest
 from datagen.benchmark.corpus_rows import read_rows
 from datagen.benchmark.fitness import TOO_FAST, TOO_SHORT
 from datagen.benchmark.reading_policy import Reading
-from datagen.benchmark.record_rows import RecordFacts, RecordRows, Row, piece_count, record_rows, signal_rows
+from datagen.benchmark.record_rows import (
+    RecordFacts,
+    RecordRows,
+    Row,
+    feature_rows,
+    piece_count,
+    record_rows,
+    signal_rows,
+)
 from datagen.benchmark.windows import common_rate, read_windows
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
 from datagen.judging.known import known_kinematics
-from labels.classifier.liveness import DEAD, STOPPED
+from labels.classifier.liveness import DEAD, STOPPED, liveness
 from labels.features.analysis import analyse
 from labels.features.table import FEATURE_NAMES
 from labels.features.turning import Turning
@@ -323,3 +331,34 @@ def test_a_record_is_rejected_where_all_its_rows_are(silent, reason, monkeypatch
     monkeypatch.setattr("datagen.benchmark.record_rows.signal_rows", lambda *given: [row(given[4][-1])])
     found = record_rows(np.hstack([shaking(3000), shaking(3000)]), labels(), Reading())
     assert (len(found.rows), found.facts.reason) == (2, reason)
+
+
+def test_rows_stand_in_the_table_as_they_were_found():
+    values = np.arange(3.0 * len(FEATURE_NAMES)).reshape(3, -1)
+    found = [Row(values[0], False, "", axis=0), Row(values[1], True, "", axis=2), Row(values[2], True, "", axis=1)]
+    table = feature_rows(found, 7)
+    assert table.table.tolist() == values.tolist()
+    assert (table.record.tolist(), table.axis.tolist()) == ([7, 7, 7], [0, 2, 1])
+    assert table.noisy.tolist() == [False, True, True]
+    assert feature_rows([], 7).table.shape == (0, len(FEATURE_NAMES))
+
+
+def test_each_window_is_heard_below_its_own_bandwidth_and_judged_alive_by_its_own_samples(monkeypatch):
+    heard, judged = [], []
+
+    def listening(piece, rate, given, bandwidth, turning):
+        heard.append((piece.size, bandwidth))
+        return analyse(piece, rate, given, bandwidth, turning)
+
+    def judging(analysis, piece):
+        judged.append(piece.size)
+        return liveness(analysis, piece)
+
+    monkeypatch.setattr("datagen.benchmark.record_rows.analyse", listening)
+    monkeypatch.setattr("datagen.benchmark.record_rows.liveness", judging)
+    reading = Reading(window=1000 / RATE, lowest_bandwidth=3000.0)
+    signal_rows(shaking(5000)[:, 0], RATE, known_kinematics(labels()), reading, [0])
+    assert [size for size, _ in heard] == judged == [1000] * 5
+    drawn = [bandwidth for _, bandwidth in heard]
+    assert len(set(drawn)) == 5
+    assert 3000.0 <= min(drawn) < max(drawn) <= 6000.0

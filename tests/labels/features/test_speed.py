@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 from labels.features.analysis import analyse
-from labels.features.kinematics import MEASURED_WITHIN, NOMINAL_WITHIN, bearing_kinematics
+from labels.features.envelopes import EnvelopeSpectra
+from labels.features.kinematics import MEASURED_WITHIN, NOMINAL_WITHIN, Kinematics, bearing_kinematics
 from labels.features.lines import lines_in
-from labels.features.speed import families_term, sharpened, unambiguous_harmonics
+from labels.features.speed import Speed, families_term, refine_speed, sharpened, unambiguous_harmonics
 
 KNOWN = bearing_kinematics(9, 39.04e-3, 7.94e-3, 0.0, 25.0)
 
@@ -84,3 +85,23 @@ def test_harmonics_that_a_line_of_a_race_may_lie_on_tell_no_speed():
     known = NEAR_WHOLE_ORDERS["bpfo of a 6203"][0]
     # 3 and 6 lie 1.7 % below one and two BPFO, 5 1.1 % above BPFI; all others are farther away than 5 %.
     assert np.flatnonzero(unambiguous_harmonics(known)).tolist() == [0, 1, 3, 6, 7]
+
+
+@pytest.mark.parametrize(("within", "hidden"), [(MEASURED_WITHIN, [6]), (NOMINAL_WITHIN, [4, 6, 8])])
+def test_the_less_a_speed_is_known_the_more_harmonics_a_line_of_a_race_may_lie_on(within, hidden):
+    # BPFO 3.8 and BPFI 6.2: 6 lies 3.2 % below BPFI, 4 and 8 5.3 % above one and two BPFO, 7 7.9 % below two BPFO.
+    known = Kinematics(10, 0.24, 2.3, 25.0, within)
+    assert (known.bpfo, known.bpfi) == pytest.approx((3.8, 6.2))
+    assert (1 + np.flatnonzero(~unambiguous_harmonics(known))).tolist() == hidden
+
+
+def test_the_evidence_of_a_speed_is_that_of_the_shafts_harmonics_at_it():
+    """Lines at 1 to 8 times 25.2 Hz, of which 7 may be one of two BPFO = 7.17, in a spectrum of 0.1 Hz a component."""
+    excess, quiet = np.ones((1, 8000)), np.ones((1, 8000))
+    excess[0, 252 * np.arange(1, 9)] = 40.0
+    envelopes = EnvelopeSpectra(0.1, quiet, quiet, np.zeros(1), np.array([[0.0, 1.0]]))
+    found = refine_speed(lines_in(excess, 0.1), envelopes, KNOWN)
+    nats = 27.0 - 1.0 - np.log(27.0)  # over 1.5 components a mean of (40 + 0.5) / 1.5
+    assert found.shaft_hz == pytest.approx(25.2, rel=1e-6)
+    assert found.evidence == pytest.approx(7.0 * 12.0 * np.log1p(nats / 12.0), rel=1e-6)
+    assert refine_speed(lines_in(quiet, 0.1), envelopes, KNOWN) == Speed(25.0, pytest.approx(0.0, abs=1e-20))

@@ -105,6 +105,17 @@ def test_a_shaft_that_turns_back_or_stands_still_has_no_turning(angle):
         Turning(np.array(angle))
 
 
+def test_no_line_moves_a_speed_that_is_known_by_its_angle():
+    """What another shaft, 1.5 % faster, does: harmonics as loud as those of the shaft that is followed would be."""
+    other = sum(np.cos(k * 1.015 * speeding(20.0, 20.0) + k) for k in (1, 2, 3, 4, 6, 8))
+    signal = other + 0.3 * np.random.default_rng(1).standard_normal(TIME.size)
+    followed, unfollowed = (
+        analyse(signal, RATE, KNOWN, turning=turning) for turning in (Turning(speeding(20.0, 20.0)), None)
+    )
+    assert unfollowed.speed.shaft_hz == pytest.approx(20.3, rel=1e-3)
+    assert followed.speed.shaft_hz == pytest.approx(20.0, rel=1e-6)
+
+
 def test_the_race_is_looked_for_where_a_known_speed_puts_it_though_no_line_of_the_shaft_is_heard():
     quiet = np.random.default_rng(5).standard_normal(TIME.size)
     followed, unfollowed = (

@@ -10,14 +10,15 @@ from scipy.stats import binomtest
 
 from datagen.benchmark.chosen import ChosenRecords
 from datagen.benchmark.corpus_rows import CorpusRows
+from datagen.benchmark.options import Options
 from datagen.benchmark.predictions import ModelAnswer, Prediction, prediction_table, record_predictions
 from datagen.benchmark.record_rows import RecordFacts
-from datagen.benchmark.results import CorpusResults
+from datagen.benchmark.results import CorpusResults, NoisyScores, Results
 from datagen.benchmark.rows import Rows
 from datagen.benchmark.summary import summarise
 from datagen.benchmark.training import Model
 from datagen.benchmark.verdicts import REJECTED, Judges, pool, vote
-from datagen.commands.classify import print_results, score_line
+from datagen.commands.classify import print_learning_curve, print_results, score_line
 from datagen.commands.tables import verdict_table
 from labels.classifier.alarm import CLEARNESS, Alarm
 from labels.classifier.log_odds import logit, probability_of
@@ -377,6 +378,63 @@ def test_speeds_that_are_probably_wrong_are_told_below_the_scores(capsys):
         tested = replace(tested, facts=[RecordFacts(far_from_stated=place < far) for place in range(2)])
         print_results([CorpusResults(summarise(tested), record_predictions(tested), [])])
         assert ("  speeds     2: the shaft was found about as far from" in capsys.readouterr().out) == bool(far)
+
+
+def test_what_was_taken_out_and_what_hides_is_told_below_the_scores(capsys):
+    tested = judged(["none", "outer", "inner"], [[0.9, 0.1, 0.0, 0.0, 0.0]] * 3)
+    facts = (
+        RecordFacts(jumps=2, in_mains=("inner",)),
+        RecordFacts(jumps=1, glitches=5, shocks=7),
+        RecordFacts("too short", in_mains=("inner", "outer")),
+    )
+    told = (
+        "  rejected   1: too short\n",
+        "  levelled   3 jumps in 2 records\n",
+        "  despiked   5 glitches in 1 records\n",
+        "  shocks cut 7 in 1 records\n",
+        "  in mains   1: balls pass the outer race at a multiple of 50 or 60 Hz",
+        "  in mains   2: balls pass the inner race at a multiple of 50 or 60 Hz",
+    )
+    for found in (facts, (RecordFacts(),) * 3):
+        tested = replace(tested, facts=found)
+        print_results([CorpusResults(summarise(tested), record_predictions(tested), [])])
+        shown = capsys.readouterr().out
+        assert [line in shown for line in told] == [found is facts] * len(told)
+        assert "│" not in shown  # all are scored
+
+
+def test_scores_in_added_noise_are_told_with_its_level_where_there_are_any(capsys):
+    for locations, scored in ((["none", "outer"], True), (["unknown", "ball"], False)):
+        tested = judged(locations, [[0.9, 0.1, 0.0, 0.0, 0.0], [0.05, 0.95, 0.0, 0.0, 0.0]])
+        noisy = NoisyScores(-12.5, 3, summarise(tested))
+        print_results([CorpusResults(summarise(tested), record_predictions(tested), [noisy])])
+        assert ("  said       -12.5 dB: faults 1.000" in capsys.readouterr().out) == scored
+
+
+def test_false_alarms_are_told_of_the_healthy_records_and_rejections_of_all():
+    """Two of five healthy records are called faulty, one is rejected as in doubt, and so is one of two faults."""
+    healthy, outer, doubt = [0.9, 0.1, 0.0, 0.0, 0.0], [0.05, 0.95, 0.0, 0.0, 0.0], [0.02, 0.49, 0.49, 0.0, 0.0]
+    tested = judged(["none"] * 5 + ["outer"] * 2, [healthy, healthy, outer, outer, doubt, outer, doubt], 0.5)
+    found = summarise(tested).models["said"]
+    assert (found.false_alarms, found.healthy, found.rejected) == (2, 5, 2)
+    line = score_line(found)
+    assert "false alarms 2/5 [" in line
+    assert line.endswith(", rejected 2")
+
+
+def test_a_learning_curve_is_told_point_by_point_with_its_interval_where_it_has_one(capsys):
+    nan = float("nan")
+    points = [
+        {"bearings": 1, "value": nan, "low": nan, "high": nan},
+        {"bearings": 4, "value": 0.5, "low": nan, "high": nan},
+        {"bearings": 8, "value": 0.75, "low": 0.6, "high": 0.875},
+    ]
+    print_learning_curve(Results("made-up", Options(), {"learning_curve": {"said": points}}, [], 1.0))
+    assert capsys.readouterr().out.splitlines() == [
+        "learning curve: said – from 1 virtual bearing",
+        "learning curve: said 0.500 from 4 virtual bearings",
+        "learning curve: said 0.750 [0.600, 0.875] from 8 virtual bearings",
+    ]
 
 
 def test_models_have_no_scores_where_the_class_of_no_record_is_known(capsys):

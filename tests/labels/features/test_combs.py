@@ -92,6 +92,12 @@ def test_lines_that_were_taken_out_do_not_speak_against_a_comb():
     assert combs(excess) == []
 
 
+def test_a_few_lines_on_multiples_of_a_rate_are_no_comb_without_most_others():
+    """Five of the first eight multiples, nine of sixteen: never 70 %."""
+    rate = 1.37 * SHAFT
+    assert combs(spectrum(*(k * rate for k in (1, 2, 4, 7, 8, 11, 13, 14, 16)))) == []
+
+
 def test_what_a_bearing_makes_at_another_speed_is_no_comb_where_the_speed_is_in_doubt():
     """The second harmonic of a shaft that turns 2 % faster than stated."""
     excess = spectrum(*multiples(2.04 * SHAFT, 12))
@@ -199,6 +205,14 @@ def test_a_comb_of_which_some_lines_pass_for_those_of_a_race_is_told(order, part
 )  # fmt: skip
 def test_what_a_bearing_makes_is_no_part_of_a_slower_comb(lines):
     assert race(spectrum(*lines)) == []
+
+
+def test_a_comb_is_told_by_the_lines_before_it_fades():
+    """Trains whose intervals vary keep their lowest lines only: here three that pass for those of a race, of six."""
+    rate = BEARING.bpfo * SHAFT / 4
+    found = race(spectrum(*multiples(rate, 13)))
+    assert found[0] == pytest.approx(rate, abs=STEP / 10)
+    assert np.ptp(found) < STEP / 10  # six pass for one of BPFI too
 
 
 def test_lines_half_as_high_between_those_of_a_race_are_no_comb():

@@ -143,6 +143,12 @@ def test_a_known_size_changes_what_was_found_and_nothing_else() -> None:
     assert math.isnan(nothing.static_arc)
 
 
+def test_the_time_told_is_that_of_the_estimate_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    clock = iter((5.0, 7.5))
+    monkeypatch.setattr("datagen.sizing.comparison.time.process_time", lambda: next(clock))
+    assert score_record(record_at("inner"), Says(TOLD)).answer.seconds == 2.5
+
+
 @pytest.mark.parametrize(("estimate", "told"), [(TOLD, ""), (SizeEstimate(SizeOutcome.NO_PASSES, ""), CHANGING)])
 def test_a_changing_speed_is_a_reason_only_where_there_is_no_size(estimate: SizeEstimate, told: str) -> None:
     scored = score_record(replace(record_at("inner"), speed_changes=True), Says(estimate))

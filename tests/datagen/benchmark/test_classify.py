@@ -13,6 +13,7 @@ from datagen.benchmark.options import Learning, Options, Scoring
 from datagen.benchmark.request import benchmark_of
 from datagen.benchmark.windows import WINDOW_SAMPLES
 from datagen.corpus import Corpus
+from datagen.errors import BadInput
 from datagen.judging.stated_speed import SPEED_ERROR
 from labels.features.table import FEATURE_NAMES
 
@@ -166,6 +167,13 @@ def test_options_at_the_edges_of_what_is_allowed_are_taken(tiny_corpus, other_co
     assert (plan.learning, plan.scoring.levels, plan.save) == (learning, (-100.0, 100.0), tmp_path / "saved")
     kept = replace(asked[2], scoring=Scoring(reject=0.0), learning=Learning(speed_error=SPEED_ERROR))
     assert benchmark_of(*asked[:2], kept, learning_curve=True, workers=1, out=None, save=None).learning_curve
+
+
+@pytest.mark.parametrize("reject", [-0.1, 1.1, float("nan")])
+def test_a_share_of_doubt_that_is_none_is_refused_whoever_asks(reject, tiny_corpus, other_corpus):
+    options = Options(Learning(), Scoring(reject=reject))
+    with pytest.raises(BadInput, match=r"--reject = .*; allowed: 0 to 1"):
+        benchmark_of(tiny_corpus, (other_corpus,), options, learning_curve=False, workers=1, out=None, save=None)
 
 
 def test_what_can_be_asked_once_it_has_learned_is_an_estimator(tiny_corpus, other_corpus, tmp_path, monkeypatch):

@@ -92,12 +92,6 @@ def test_lines_that_were_taken_out_do_not_speak_against_a_comb():
     assert combs(excess) == []
 
 
-def test_a_few_lines_on_multiples_of_a_rate_are_no_comb_without_most_others():
-    """Five of the first eight multiples, nine of sixteen: never 70 %."""
-    rate = 1.37 * SHAFT
-    assert combs(spectrum(*(k * rate for k in (1, 2, 4, 7, 8, 11, 13, 14, 16)))) == []
-
-
 def test_what_a_bearing_makes_at_another_speed_is_no_comb_where_the_speed_is_in_doubt():
     """The second harmonic of a shaft that turns 2 % faster than stated."""
     excess = spectrum(*multiples(2.04 * SHAFT, 12))

@@ -33,6 +33,7 @@ def test_a_spectrum_shorter_than_a_block_has_one_floor():
 def test_what_stands_at_0_hz_is_no_line_and_raises_no_floor():
     power = np.array([[1e9, 2.0, 2.0, 2.0, 2.0, 8.0]])
     assert over_floor(power, 5)[0] == pytest.approx(np.array([0.0, 1.0, 1.0, 1.0, 1.0, 4.0]) * np.log(2.0), rel=1e-12)
+    assert over_floor(power[:, :5], 2)[0] == pytest.approx(np.array([0.0, 1.0, 1.0, 1.0, 1.0]) * np.log(2.0), rel=1e-12)
     assert not over_floor(np.zeros((2, 40)), 4).any()
 
 

@@ -400,6 +400,8 @@ def test_what_was_taken_out_and_what_hides_is_told_below_the_scores(capsys):
         print_results([CorpusResults(summarise(tested), record_predictions(tested), [])])
         shown = capsys.readouterr().out
         assert [line in shown for line in told] == [found is facts] * len(told)
+        for word in ("rejected  ", "levelled  ", "despiked  ", "shocks cut", "in mains  "):
+            assert (f"  {word} " in shown) == (found is facts)
         assert "│" not in shown  # all are scored
 
 

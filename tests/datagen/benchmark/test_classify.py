@@ -5,6 +5,7 @@ import shutil
 import sys
 from dataclasses import replace
 
+import numpy as np
 import pandas
 import pytest
 from command_line import run
@@ -15,6 +16,8 @@ from datagen.benchmark.windows import WINDOW_SAMPLES
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
 from datagen.judging.stated_speed import SPEED_ERROR
+from datagen.recordings.importing import import_recordings
+from datagen.recordings.spec import load_spec
 from labels.features.table import FEATURE_NAMES
 
 pytestmark = pytest.mark.usefixtures("short_records_are_judged")
@@ -196,3 +199,13 @@ def test_impulse_trains_have_no_windows(tiny_corpus):
     done = run(*command, "--estimator", "math:sqrt")
     assert done.exit_code == 2
     assert "features only" in done.output
+
+
+def test_nothing_is_learned_from_recordings(other_corpus, tmp_path):
+    np.save(tmp_path / "a.npy", np.random.default_rng(0).standard_normal(4000))
+    spec = 'name = "mine"\n[defaults]\nunit = "m/s2"\nrate_hz = 20000\nspeed_rpm = 1200\nbearing = "koyo_1205"\n'
+    (tmp_path / "spec.toml").write_text(f'{spec}[[recording]]\nname = "all"\nfiles = "*.npy"\ny = "data"\n')
+    import_recordings(load_spec(tmp_path / "spec.toml"), tmp_path / "corpus")
+    done = run("classify", "--train", tmp_path / "corpus", "--test", other_corpus)
+    assert (done.exit_code, done.output.count("\n")) == (2, 1)
+    assert "classifiers learn from simulated corpora only" in done.output

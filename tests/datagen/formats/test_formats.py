@@ -277,3 +277,17 @@ def test_a_table_of_names_alone_has_columns_without_numbers(tmp_path: Path) -> N
     (tmp_path / "a.csv").write_text("t,acc\n")
     columns = read_arrays(tmp_path / "a.csv", None, PLAIN)
     assert {name: column.tolist() for name, column in columns.items()} == {"t": [], "acc": []}
+
+
+def test_a_chunk_of_a_wave_file_that_nobody_knows_is_passed_over(tmp_path: Path) -> None:
+    path = tmp_path / "a.wav"
+    with wave.open(str(path), "wb") as file:
+        file.setnchannels(1)
+        file.setsampwidth(2)
+        file.setframerate(8000)
+        file.writeframes(np.arange(400, dtype="<i2").tobytes())
+    whole = path.read_bytes()
+    data = whole.index(b"data")
+    body = whole[8:data] + struct.pack("<4sI4s", b"calb", 4, b"1.25") + whole[data:]
+    path.write_bytes(struct.pack("<4sI", b"RIFF", len(body)) + body)
+    assert read_arrays(path, None, PLAIN)["data"].tolist() == (np.arange(400) / 32768.0).tolist()

@@ -85,8 +85,9 @@ def test_the_same_holds_for_a_number_that_the_file_holds_or_leads_to(
     [
         ("bpfo = 107.4\nbpfi = 162.2", "bpfo = 107.4: with bpfi = 162.2 it would mean a bearing with 269.6 balls"),
         ("bpfo = 5.42\nbpfi = 3.58", "bpfo = 5.42: with bpfi = 3.58 it would mean a bearing with 9 balls"),
+        ("bpfo = 4.5\nbpfi = 4.5", "bpfo = 4.5: with bpfi = 4.5 it would mean a bearing with 9 balls"),
     ],
-    ids=["in Hz", "exchanged"],
+    ids=["in Hz", "exchanged", "alike"],
 )
 def test_orders_that_no_bearing_has_are_refused(
     orders: str, message: str, bring: Bring, mat: Mat, tmp_path: Path
@@ -94,7 +95,7 @@ def test_orders_that_no_bearing_has_are_refused(
     mat("a.mat")
     allowed = "; allowed: orders of the shaft, bpfo below bpfi; their sum is the number of balls, at most 200"
     assert refusal(bring, f"{GOOD}{orders}\n", tmp_path).endswith(f"recording[1] (all): {message}{allowed}")
-    for known in ("bpfo = 3.58\nbpfi = 5.42\nftf = 0.398", "bpfo = 3.58", "bpfi = 5.42"):
+    for known in ("bpfo = 3.58\nbpfi = 5.42\nftf = 0.398", "bpfo = 3.58", "bpfi = 5.42", "bpfo = 99\nbpfi = 101"):
         assert len(bring(f"{GOOD}{known}\n", known)) == 1
 
 

@@ -79,7 +79,7 @@ def word(*options: str, remark: str = "") -> AfterValidator:
     def check(value: str) -> str:
         if value not in options:
             meant = [option for option in options if _is_meant(value.casefold(), option)]
-            hint = ", ".join(options) + (suggestion(value, meant) or (f"; {remark}" if remark else ""))
+            hint = ", ".join(options) + (suggestion(value.casefold(), meant) or (f"; {remark}" if remark else ""))
             raise PydanticCustomError("allowed", "allowed: {allowed}", {"allowed": hint})
         return value
 

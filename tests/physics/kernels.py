@@ -5,8 +5,8 @@ from typing import Any
 
 import numba
 
-from physics.contact import contact_set, forces
-from physics.integrators import events
+from physics.contact import contact_set, forces, track
+from physics.integrators import events, stops
 from physics.integrators.modal import bumps, carried, flow, grazing
 from physics.integrators.modal import reading as reading_of_weights
 from physics.statics import rest
@@ -24,7 +24,11 @@ def from_python(kernel: Callable[..., Any]) -> Callable[..., Any]:
 
 earliest_change = from_python(events.earliest_change)
 count_changes = from_python(contact_set.count_changes)
+compression_of = from_python(forces.compression_of)
+direction = from_python(forces.direction)
 of_ball = from_python(forces.of_ball)
+passage = from_python(track.passage)
+place_of = from_python(track.place_of)
 press = from_python(forces.press)
 reset_contact = from_python(contact_set.reset_contact)
 set_time = from_python(forces.set_time)
@@ -36,6 +40,7 @@ through_middle = from_python(carried.through_middle)
 through_end = from_python(carried.through_end)
 reading = from_python(flow.reading)
 has_bumps = from_python(grazing.has_bumps)
+has_ridges = from_python(stops.has_ridges)
 mark_grazing = from_python(grazing.mark_grazing)
 note_motion = from_python(contact_set.note_motion)
 turn = from_python(reading_of_weights.turn)

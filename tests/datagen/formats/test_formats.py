@@ -12,9 +12,9 @@ import pytest
 import scipy.io
 
 from datagen.errors import BadInput
-from datagen.formats.arrays import NoVariable, choose, chosen
+from datagen.formats.arrays import NoVariable, as_numbers, choose, chosen
 from datagen.formats.csv_layout import CsvLayout
-from datagen.formats.reading import read_arrays
+from datagen.formats.reading import file_format, read_arrays
 
 PLAIN = CsvLayout()
 
@@ -224,3 +224,70 @@ def test_the_fields_of_a_structured_array_come_by_name(tmp_path: Path) -> None:
     assert choose(arrays, "data.acc[:,1]", tmp_path / "a.npy", "y").tolist() == list(range(1, 60, 3))
     with pytest.raises(NoVariable, match=r"data\.note\": is a text, .*; allowed: the number itself, or data\.acc"):
         choose(arrays, "data.note", tmp_path / "a.npy", "y")
+
+
+@pytest.mark.parametrize("texts", [["nan"], ["12.5", "inf"], ["12.5", "fast"], []])
+def test_texts_of_which_one_is_no_finite_number_are_none(texts: list[str]) -> None:
+    assert as_numbers(np.array(texts, dtype=np.str_)) is None
+    found = as_numbers(np.array([" 12.5", "-3e2"]))
+    assert found is not None
+    assert found.tolist() == [12.5, -300.0]
+
+
+def test_places_are_counted_from_the_end_too() -> None:
+    arrays = {"table": np.arange(12.0).reshape(3, 4)}
+    assert choose(arrays, "table[:,-1]", Path("a.npy"), "y").tolist() == [3.0, 7.0, 11.0]
+    assert choose(arrays, "table[-1,0]", Path("a.npy"), "y") == 8.0
+
+
+def test_brackets_of_a_pattern_mean_themselves() -> None:
+    arrays = {"S[2].F": np.zeros(3), "S2.F": np.ones(3), "S[1].F": np.ones(3)}
+    assert chosen(arrays, "S[2].*", Path("a.mat"), "y") == ("S[2].F", None)
+    assert chosen(arrays, "S[2].?[0]", Path("a.mat"), "y") == ("S[2].F", "0")
+
+
+def test_names_alike_are_those_in_other_capitals_before_those_that_hold_the_wish() -> None:
+    arrays = {"ACC": np.zeros(3), "acc_y": np.zeros(3), "a": np.zeros(3)}
+    for wish, hint in (("Acc", '; did you mean "ACC"?'), ("c", "")):
+        with pytest.raises(NoVariable) as refused:
+            chosen(arrays, wish, Path("a.mat"), "y")
+        assert f"no such variable{hint}; allowed: ACC, a, acc_y" in str(refused.value)
+
+
+@pytest.mark.parametrize(("count", "shown"), [(12, "v11"), (13, "v11 and 1 more")])
+def test_a_dozen_names_are_shown(count: int, shown: str) -> None:
+    arrays = {f"v{number:02}": np.zeros(3) for number in range(count)}
+    with pytest.raises(NoVariable) as refused:
+        chosen(arrays, "absent", Path("a.mat"), "y")
+    assert str(refused.value).endswith(f"v10, {shown}")
+
+
+@pytest.mark.parametrize("ending", ["csv", "txt", "tsv", "TSV", "tsv.gz", "txt.GZ"])
+def test_an_ending_of_tables_says_so_in_capitals_and_packed_too(ending: str) -> None:
+    assert file_format(Path(f"a.{ending}"), None) == "csv"
+
+
+def test_a_stated_format_goes_before_an_ending_of_packed_files() -> None:
+    assert file_format(Path("a.xz"), "npy") == "npy"
+    with pytest.raises(BadInput, match="is packed"):
+        file_format(Path("a.xz"), None)
+
+
+def test_a_table_of_names_alone_has_columns_without_numbers(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("t,acc\n")
+    columns = read_arrays(tmp_path / "a.csv", None, PLAIN)
+    assert {name: column.tolist() for name, column in columns.items()} == {"t": [], "acc": []}
+
+
+def test_a_chunk_of_a_wave_file_that_nobody_knows_is_passed_over(tmp_path: Path) -> None:
+    path = tmp_path / "a.wav"
+    with wave.open(str(path), "wb") as file:
+        file.setnchannels(1)
+        file.setsampwidth(2)
+        file.setframerate(8000)
+        file.writeframes(np.arange(400, dtype="<i2").tobytes())
+    whole = path.read_bytes()
+    data = whole.index(b"data")
+    body = whole[8:data] + struct.pack("<4sI4s", b"calb", 4, b"1.25") + whole[data:]
+    path.write_bytes(struct.pack("<4sI", b"RIFF", len(body)) + body)
+    assert read_arrays(path, None, PLAIN)["data"].tolist() == (np.arange(400) / 32768.0).tolist()

@@ -12,11 +12,14 @@ import pytest
 from command_line import run
 from imports import Bring, Mat, noise, refusal
 
+from datagen.corpus import Corpus
 from datagen.corpus_files.manifest import write_manifest
 from datagen.errors import BadInput
 from datagen.inspection.check import check_corpus
 from datagen.recordings import importing
-from datagen.recordings.opened_files import source_hash
+from datagen.recordings.opened_files import remembered_files, source_hash
+from datagen.recordings.spec import load_spec
+from datagen.recordings.unchanged import require_unchanged
 
 GOOD = '[[recording]]\nname = "all"\nfiles = "*.mat"\nunit = "g"\nrate_hz = 1000\ny = "sig"\n'
 
@@ -58,6 +61,7 @@ def test_a_setting_that_is_wrong_or_missing_is_named(
         ('condition = "broken"', 'condition = "broken"; allowed: healthy, line, extended, unknown'),
         ('condition = "faulty"', "allowed: healthy, line, extended, unknown; it follows from location and extent"),
         ('condition = "heathy"', 'allowed: healthy, line, extended, unknown; did you mean "healthy"?'),
+        ('location = "INNER"', 'did you mean "inner"?'),
         ("notes = {Motor = [1]}", "notes.Motor = [1]; allowed: a text in quotes or a number"),
         ('bearing = "skf_6025"', 'bearing: bearing = "skf_6025" is not in the catalogue'),
         ("bearing = {balls = 8, pitch_diameter_mm = 10, ball_diameter_mm = 8}", "8 balls of 8.000 mm do not fit"),
@@ -158,11 +162,36 @@ def test_a_piece_that_repeats_another_is_left_out_and_those_behind_it_keep_their
     assert np.array_equal(corpus.to_numpy()[:, :, 0], np.stack([one, other]).astype(np.float32))
 
 
+def test_a_repeat_that_is_left_out_has_no_say_in_the_split_of_its_bearing_nor_in_the_turns_of_a_record(
+    mat: Mat, tmp_path: Path
+) -> None:
+    mat("a.mat", noise(seed=1))
+    mat("b.mat", noise(seed=1))
+    mat("c.mat", noise(seed=2))
+    (tmp_path / "t.csv").write_text(
+        "file,split,bearing_id,speed_hz\na.mat,train,one,20\nb.mat,test,one,1\nc.mat,train,one,15\n"
+    )
+    (tmp_path / "spec.toml").write_text('name = "mine"\nsame_samples = "skip"\n' + GOOD + 'table = "t.csv"\n')
+    found = importing.import_recordings(load_spec(tmp_path / "spec.toml"), tmp_path / "corpus")
+    assert found.skipped == ("b",)
+    assert found.few_turns == "the shortest record, c, holds 6 turns of the shaft"
+    with Corpus(tmp_path / "corpus") as corpus:
+        assert corpus.labels["recording"].tolist() == ["a", "c"]
+        assert corpus.labels["record"].tolist() == [0, 1]
+
+
 def test_the_same_samples_at_another_rate_are_no_repeat(bring: Bring, mat: Mat) -> None:
     mat("a.mat", noise(seed=1), fs=1000.0)
     mat("b.mat", noise(seed=1), fs=2000.0)
     text = GOOD.replace("rate_hz = 1000", 'rate_hz = {variable = "fs"}')
     assert bring(text).labels["rate_hz"].tolist() == [1000.0, 2000.0]
+
+
+def test_the_same_numbers_are_a_repeat_whatever_their_scale(bring: Bring, mat: Mat, tmp_path: Path) -> None:
+    mat("a.mat", noise(seed=1))
+    mat("b.mat", noise(seed=1))
+    scaled = '[[recording.override]]\nfiles = "b.mat"\nscale = 1.5\n'
+    assert 'record "b" has exactly the samples of "a"' in refusal(bring, GOOD + scaled, tmp_path)
 
 
 def test_a_name_twice_is_refused(bring: Bring, mat: Mat, tmp_path: Path) -> None:
@@ -194,6 +223,8 @@ def test_records_of_unknown_bearings_may_be_in_several_splits(bring: Bring, mat:
         ("fil,location\na.mat,inner\n", 't.csv, line 1: fil: unknown column; did you mean "file"?'),
         ("file;load_n\na.mat;1.797,5\n", 't.csv, line 2: load_n = "1.797,5"; allowed: a number from 0 to 1e+07, or'),
         ('file\tload_n\tspeed_rpm\na.mat\t0.5\t"1,797"\n', 't.csv, line 2: speed_rpm = "1,797": other numbers of this'),
+        ("file,load_n,load_n\na.mat,1,2\n", "t.csv, line 1: load_n: this column occurs twice"),
+        ("load_n\n1\n", "t.csv, line 1: file: this column is missing"),
         ("file,location\n,inner\n", "t.csv, line 2: file: this cell is empty"),
         ("file,location\na.mat\n", "t.csv, line 2: 1 cells, but the table has 2 columns"),
         ("file,location\na.mat,iner\n", 't.csv, line 2: location = "iner"; allowed: none, outer, inner'),
@@ -214,6 +245,38 @@ def test_a_wrong_line_of_a_label_table_is_named(
     (tmp_path / "sub").mkdir()
     (tmp_path / "t.csv").write_text(table)
     assert message in refusal(bring, GOOD + 'table = "t.csv"\nspeed_hz = 20\n', tmp_path)
+
+
+def test_a_column_of_notes_that_the_label_table_lacks_is_named(bring: Bring, mat: Mat, tmp_path: Path) -> None:
+    mat("a.mat")
+    (tmp_path / "t.csv").write_text("file,location\na.mat,inner\n")
+    message = refusal(bring, GOOD + 'table = "t.csv"\nnote_columns = ["hp"]\n', tmp_path)
+    assert message.endswith("t.csv, line 1: hp: this column is missing")
+
+
+@pytest.mark.parametrize(
+    ("cells", "refused"),
+    [
+        (("-1,500", "2.5"), "-1,500"),
+        (("1,500", "-2.5"), "1,500"),
+        (("-2.5", "+1,500"), "+1,500"),
+        (("0,125", "2.5"), ""),  # no thousand begins with 0
+        (("1,50", "2.5"), ""),
+        (("1,500", "2"), ""),
+        (("150", "2.5"), ""),
+    ],
+)
+def test_a_comma_that_may_stand_between_thousands_is_refused_beside_points_alone(
+    cells: tuple[str, str], refused: str, bring: Bring, mat: Mat, tmp_path: Path
+) -> None:
+    mat("a.mat")
+    mat("b.mat")
+    (tmp_path / "t.csv").write_text(f"file;snr_db\na.mat;{cells[0]}\n;\nb.mat;{cells[1]}\n")
+    text = GOOD + 'table = "t.csv"\n'
+    if refused:
+        assert f'snr_db = "{refused}": other numbers of this table have a point' in refusal(bring, text, tmp_path)
+    else:
+        assert bring(text).labels["snr_db"].tolist() == [float(cell.replace(",", ".")) for cell in cells]
 
 
 def test_a_table_without_the_column_that_the_samples_should_be_in_is_refused(bring: Bring, tmp_path: Path) -> None:
@@ -350,3 +413,24 @@ def test_a_cut_of_sixteen_samples_is_the_shortest(bring: Bring, mat: Mat, tmp_pa
     message = refusal(bring, GOOD + "cut_s = 0.015\n", tmp_path)
     assert "cut_s = 0.015; allowed: 0.016 to 0.4 s, the length of a.mat" in message
     assert len(bring(GOOD + "cut_s = 0.016\n").labels) == 25  # of 400 samples
+
+
+@pytest.mark.parametrize("changed", ["nothing", "samples", "size", "file"])
+def test_a_file_is_another_by_its_size_its_time_or_where_it_lies_alone(changed: str, tmp_path: Path) -> None:
+    path, other = tmp_path / "a", tmp_path / "b"
+    path.write_bytes(b"abcd")
+    other.write_bytes(b"efgh")
+    stamp = path.stat().st_mtime_ns
+    with remembered_files():
+        require_unchanged(path)
+        if changed == "file":
+            other.replace(path)
+        else:
+            path.write_bytes({"nothing": b"abcd", "samples": b"efgh", "size": b"abcde"}[changed])
+        # Programs that keep the time of what they copy set it.
+        os.utime(path, ns=(stamp, stamp + (changed == "samples")))
+        if changed == "nothing":
+            require_unchanged(path)
+        else:
+            with pytest.raises(BadInput, match="the file changed while it was being imported"):
+                require_unchanged(path)

@@ -86,6 +86,18 @@ def test_an_empty_array_of_version_7_3_is_empty(tmp_path: Path) -> None:
     assert read(tmp_path / "run_1.mat")["empty"].size == 0
 
 
+def test_a_text_of_several_lines_of_version_7_3_is_no_number(tmp_path: Path) -> None:
+    path = tmp_path / "a.mat"
+    with h5py.File(path, "w", userblock_size=512) as file:
+        for name, lines in (("one", ["12"]), ("two", ["12", "34"])):
+            letters = np.array([[ord(letter) for letter in line] for line in lines], dtype="u2")
+            labelled(file.create_dataset(name, data=letters.T), "char")
+    path.write_bytes(b"MATLAB 7.3 MAT-file".ljust(512, b"\0") + path.read_bytes()[512:])
+    arrays: Any = read(path)
+    assert {name: float(array[0]) for name, array in arrays.items()} == {"one": 12.0}
+    assert arrays.unread == ["two"]
+
+
 def test_a_file_of_version_7_3_that_breaks_off_is_refused_with_its_name(tmp_path: Path) -> None:
     path = tmp_path / "run_1.mat"
     new_file(path)

@@ -27,6 +27,12 @@ STATED = {
     "extent_deg = 400": "extent_deg = 400; allowed: a number above 0 to 360",
     "extent_mm = 5e9": "extent_mm = 5000000000.0; allowed: a number above 0 to 10000",
     "depth_um = inf": "depth_um = inf; allowed: a number above 0 to 100000",
+    "depth_um = 0": "depth_um = 0; allowed: a number above 0 to 100000",
+    "extent_deg = 0": "extent_deg = 0; allowed: a number above 0 to 360",
+    "extent_mm = 0": "extent_mm = 0; allowed: a number above 0 to 10000",
+    "speed_hz = 16700": "speed_hz = 16700; allowed: a number from 0 to 16666.7",
+    "scale = inf": "scale = inf; allowed: a number, or",
+    "scale = nan": "scale = nan; allowed: a number, or",
     "snr_db = 1e9": "snr_db = 1000000000.0; allowed: a number from -100 to 200",
     "spalls = 100000000000000000000": "spalls = 100000000000000000000; allowed: at most 10000",
     "bpfo = 1e30": "bpfo = 1e+30; allowed: a number above 0 to 1000",
@@ -45,7 +51,7 @@ HELD = {
     'load_n = {variable = "minus"}': "load_n = -3.0: from the variable minus; allowed: a number from 0 to 1e+07",
     'speed_rpm = {variable = "minus"}': "speed_rpm = -3.0: from the variable minus; allowed: a number from 0 to 1e+06",
     "scale = 1e308": "scale = 1e+308: the largest sample would be inf m/s²; allowed: samples up to 1e+09 m/s²",
-    "scale = 1e12": "scale = 1000000000000.0: the largest sample would be",
+    "scale = 1e9": "scale = 1000000000.0: the largest sample would be",
     'tach = {variable = "saw", pulses_per_rev = 0.002}': "tach.pulses_per_rev = 0.002: its pulses give 6e+06",
 }
 
@@ -79,8 +85,9 @@ def test_the_same_holds_for_a_number_that_the_file_holds_or_leads_to(
     [
         ("bpfo = 107.4\nbpfi = 162.2", "bpfo = 107.4: with bpfi = 162.2 it would mean a bearing with 269.6 balls"),
         ("bpfo = 5.42\nbpfi = 3.58", "bpfo = 5.42: with bpfi = 3.58 it would mean a bearing with 9 balls"),
+        ("bpfo = 4.5\nbpfi = 4.5", "bpfo = 4.5: with bpfi = 4.5 it would mean a bearing with 9 balls"),
     ],
-    ids=["in Hz", "exchanged"],
+    ids=["in Hz", "exchanged", "alike"],
 )
 def test_orders_that_no_bearing_has_are_refused(
     orders: str, message: str, bring: Bring, mat: Mat, tmp_path: Path
@@ -88,7 +95,7 @@ def test_orders_that_no_bearing_has_are_refused(
     mat("a.mat")
     allowed = "; allowed: orders of the shaft, bpfo below bpfi; their sum is the number of balls, at most 200"
     assert refusal(bring, f"{GOOD}{orders}\n", tmp_path).endswith(f"recording[1] (all): {message}{allowed}")
-    for known in ("bpfo = 3.58\nbpfi = 5.42\nftf = 0.398", "bpfo = 3.58", "bpfi = 5.42"):
+    for known in ("bpfo = 3.58\nbpfi = 5.42\nftf = 0.398", "bpfo = 3.58", "bpfi = 5.42", "bpfo = 99\nbpfi = 101"):
         assert len(bring(f"{GOOD}{known}\n", known)) == 1
 
 
@@ -108,15 +115,22 @@ NOT_CAGE = "; allowed: bpfo over the number of balls, within 1%"
             f"ftf = 0.45: with bpfo = 3.585 and 9 balls it should be 0.3983{NOT_CAGE}",
         ),
         ("bpfo = 3.585\nftf = 0.38", f"ftf = 0.38: with bpfo = 3.585 and 9 balls it should be 0.3983{NOT_CAGE}"),
+        (
+            "bpfo = 3.64\nbpfi = 5.42",
+            f"bpfo = 3.64: with bpfi = 5.42 it would mean a bearing with 9.06 balls{NOT_WHOLE}",
+        ),
+        ("bpfo = 3.585\nftf = 0.403", f"ftf = 0.403: with bpfo = 3.585 and 9 balls it should be 0.3983{NOT_CAGE}"),
+        ("bpfo = 0.4\nftf = 0.9", f"ftf = 0.9: with bpfo = 0.4 and 1 balls it should be 0.4{NOT_CAGE}"),
     ],
-    ids=["sum", "cage", "cage without bpfi"],
+    ids=["sum", "cage", "cage without bpfi", "sum by little", "cage by little", "less than a ball"],
 )
 def test_orders_that_do_not_fit_each_other_are_refused(
     orders: str, message: str, bring: Bring, mat: Mat, tmp_path: Path
 ) -> None:
     mat("a.mat")
     assert refusal(bring, f"{GOOD}{orders}\n", tmp_path).endswith(f"recording[1] (all): {message}")
-    for rounded in ("bpfo = 3.6\nbpfi = 5.4\nftf = 0.398", "bpfo = 3.61\nbpfi = 5.42", "bpfo = 3.585\nftf = 0.4"):
+    near = "bpfo = 3.62\nbpfi = 5.42"  # 9.04 balls
+    for rounded in ("bpfo = 3.6\nbpfi = 5.4\nftf = 0.398", near, "bpfo = 3.585\nftf = 0.401"):  # 0.7 % above 0.3983
         assert len(bring(f"{GOOD}{rounded}\n", rounded)) == 1
 
 

@@ -9,7 +9,7 @@ import pytest
 from imports import Bring
 
 from datagen.errors import BadInput
-from datagen.formats.placeholders import filled
+from datagen.formats.placeholders import filled, without_ending
 
 FOLDERS = ("35Hz/Bearing1_1", "35Hz/Bearing1_2", "40Hz/Bearing3_1")
 SPEC = '[[recording]]\nname = "all"\nfiles = "*/*/*.csv"\nunit = "g"\nrate_hz = 25600\ny = "V"\n'
@@ -77,3 +77,13 @@ def test_braces_that_mean_nothing_are_refused_with_those_that_do(text: str) -> N
     assert "cannot be filled in for this file; allowed: {stem}, {number}, {folder}, as in X" in str(problem.value)
     with pytest.raises(BadInput, match="for this file, whose name contains no number"):
         filled("X{number:d}", Path("a/b.mat"), "y")
+
+
+@pytest.mark.parametrize(("name", "number"), [("run.h5", ""), ("run7.h5", "7"), ("run.nc4", ""), ("a12b3.csv", "12")])
+def test_figures_of_an_ending_are_not_the_number_of_a_file(name: str, number: str) -> None:
+    assert filled("{number}", Path("35Hz") / name, "rig") == number
+
+
+@pytest.mark.parametrize("name", ["a.csv", "a.csv.gz", "a.CSV.GZ", "a.mat"])
+def test_a_name_without_its_ending_has_none_of_packed_tables_either(name: str) -> None:
+    assert without_ending(Path(name)) == "a"

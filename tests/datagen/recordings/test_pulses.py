@@ -22,6 +22,11 @@ def test_noise_on_the_edge_of_a_pulse_is_not_counted() -> None:
     assert rising_edges(rough).size == 8
 
 
+def test_chatter_behind_an_edge_from_one_sample_to_the_next_is_not_counted() -> None:
+    pulse = [0.0, 0.0, 1.0, 0.45, 1.0, 0.45, 0.55, 0.0]
+    assert rising_edges(np.array(pulse * 3)).tolist() == [1.5, 9.5, 17.5]
+
+
 def test_a_stated_threshold_moves_the_edges() -> None:
     ramps = np.tile(np.arange(100.0), 4)
     assert rising_edges(ramps, 80.5).tolist() == [80.5, 180.5, 280.5, 380.5]
@@ -82,6 +87,24 @@ def test_a_wheel_whose_missing_teeth_are_counted_among_its_pulses_has_them_put_i
     np.testing.assert_allclose(found, turning, atol=1e-3 / (20.0 * teeth))  # of an interval
 
 
+@pytest.mark.parametrize(("lost", "filled"), [([100], True), ([100, 300], False)])
+def test_nine_in_ten_gaps_of_a_wheel_must_be_a_turn_apart(lost: list[int], filled: bool) -> None:
+    numbers = np.arange(30 * 36 - 1)
+    whole = numbers / 720.0
+    # 28 times a turn from gap to gap; each pulse that is lost elsewhere makes two other distances of one.
+    times = whole[(numbers % 36 < 35) & ~np.isin(numbers, lost)]
+    found, count = mended(times, 36.0)
+    assert count == 0
+    np.testing.assert_allclose(found, whole if filled else times, atol=1e-12)
+
+
+def test_of_two_pulses_at_one_instant_one_is_left_out() -> None:
+    even = np.arange(40) / 16.0  # exactly even, so that either may go
+    found, count = mended(np.insert(even, 17, even[17]), 1.0)
+    assert count == 1
+    np.testing.assert_allclose(found, even, atol=1e-12)
+
+
 def test_a_rest_that_is_no_whole_number_of_intervals_lacks_pulses_all_the_same() -> None:
     turning = np.arange(40) / 20.0
     _, count = mended(np.concatenate([turning, turning + turning[-1] + 7.45 / 20.0]), 1.0)
@@ -89,9 +112,31 @@ def test_a_rest_that_is_no_whole_number_of_intervals_lacks_pulses_all_the_same()
 
 
 @pytest.mark.parametrize(
+    ("gap", "lost"),
+    [(1.75, 0), (1.85, 1), (2.15, 1), (2.25, 0), (2.75, 0), (2.85, 2), (2.95, 2), (3.4, 2), (4.4, 3)],
+)
+def test_a_gap_near_a_whole_number_of_intervals_lacks_pulses_and_one_of_three_in_any_case(
+    gap: float, lost: int
+) -> None:
+    turning = np.arange(20) / 20.0
+    _, count = mended(np.concatenate([turning, turning + turning[-1] + gap / 20.0]), 1.0)
+    assert count == lost
+
+
+@pytest.mark.parametrize(("lost", "expected"), [([9, 30, 47, 66], 4), ([9, 22, 30, 47, 59, 66], 0)])
+def test_pulses_that_are_lost_more_often_than_every_other_turn_are_the_wheels_own(
+    lost: list[int], expected: int
+) -> None:
+    times = np.delete(np.arange(80) / 160.0, lost)  # eight a turn
+    found, count = mended(times, 8.0)
+    assert count == expected
+    assert found.size == (80 if expected else times.size)
+
+
+@pytest.mark.parametrize(
     "times",
     [
-        np.arange(9) / 20.0,
+        np.delete(np.arange(10) / 20.0, 4),
         swinging(240, 1.0),
         np.cumsum(np.tile([0.9, 1.1], 60)),
         np.cumsum(np.tile([0.1, 0.4], 60)),

@@ -40,6 +40,10 @@ def test_a_rate_is_no_rounder_than_its_rounded_times_allow() -> None:
     assert rate_of((np.arange(1000) / 12_001.0).round(6), Path("a.csv"), "t") == 12_001.0
 
 
+def test_a_rate_is_as_round_as_times_allow_that_are_rounded_at_both_ends() -> None:
+    assert rate_of((1.23456 + np.arange(128) / 12_000.0).round(4), Path("a.csv"), "t") == 12_000.0
+
+
 @pytest.mark.parametrize("start", [0.0, 3.5e-5, 12.345, 1.7e9])
 @pytest.mark.parametrize("rate", [12_000.0, 25_600.0, 48_828.125])
 def test_rounded_times_of_all_files_of_a_set_give_one_rate(start: float, rate: float) -> None:
@@ -72,6 +76,17 @@ def test_times_that_give_no_rate_are_refused(
         bring(SPEC + 'rate_hz = {variable = "t", times = true}\n')
     assert str(problem.value).startswith(f"{tmp_path / 'a.mat'}: rate_hz = ")
     assert message in str(problem.value)
+
+
+@pytest.mark.parametrize(("size", "off"), [(400, 1.5), (4000, 3.5), (400, 2.5), (4000, 4.5)])
+def test_times_may_lie_two_steps_off_a_straight_line_or_a_thousandth_of_their_span(size: int, off: float) -> None:
+    times = np.arange(float(size))
+    times[size // 2] += off
+    if off < max(2.0, 1e-3 * size):
+        assert rate_of(times * 1e-3, Path("a.csv"), "t") == pytest.approx(1000.0)
+    else:
+        with pytest.raises(BadInput, match="not evenly spaced"):
+            rate_of(times * 1e-3, Path("a.csv"), "t")
 
 
 def test_a_time_column_in_place_of_a_rate_comes_with_a_way_out(bring: Bring, mat: Mat) -> None:

@@ -12,6 +12,7 @@ from imports import Bring, Mat
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
 from datagen.inspection.check import check_corpus
+from datagen.recordings.doubts import STANDING
 from datagen.recordings.importing import import_recordings
 from datagen.recordings.pulses import rising_edges
 from datagen.recordings.settings import Tach
@@ -27,6 +28,14 @@ def test_a_pulse_at_the_end_of_a_piece_belongs_to_the_next() -> None:
     times = rising_edges(pulses, 1.0) / 1000.0
     assert tach_speed(source, tach, times, 0.0, 0.45) == pytest.approx(600.0)
     assert tach_speed(source, tach, times, 0.45, 1.0) == pytest.approx(1200.0)
+
+
+def test_three_pulses_are_the_fewest_that_give_a_speed() -> None:
+    source: Any = SimpleNamespace(path="made-up")
+    tach, times = Tach(variable="tacho"), np.array([0.1, 0.2, 0.3])
+    assert tach_speed(source, tach, times, 0.0, 1.0) == pytest.approx(600.0)
+    with pytest.raises(BadInput, match="2 pulses from 0 to 1 s; allowed: at least 3 pulses"):
+        tach_speed(source, tach, times[:2], 0.0, 1.0)
 
 
 def test_a_piece_has_the_mean_of_its_own_part_of_a_speed_channel(bring: Bring, mat: Mat) -> None:
@@ -67,12 +76,76 @@ def test_speeds_of_several_shafts_have_no_mean(wish: str, told: str, bring: Brin
         assert corpus.labels["speed_rpm"].tolist() == [600.0]
 
 
+@pytest.mark.parametrize(("last", "mean"), [(1490.0, 1245.0), (1510.0, None)])
+def test_a_few_speeds_of_one_shaft_are_no_further_apart_than_a_half(
+    last: float, mean: float | None, bring: Bring, mat: Mat
+) -> None:
+    mat("a.mat", rpm=np.array([1000.0, last]))
+    spec = '[[recording]]\nname = "all"\nfiles = "a.mat"\nunit = "g"\nrate_hz = 1000\ny = "sig"\n'
+    spec += 'speed_rpm = {variable = "rpm"}\n'
+    if mean is None:
+        with pytest.raises(BadInput, match="holds 2 numbers from 1000 to 1510"):
+            bring(spec)
+    else:
+        assert bring(spec).labels["speed_rpm"].tolist() == [mean]
+
+
 def test_scales_of_several_channels_have_no_mean(bring: Bring, mat: Mat) -> None:
     mat("a.mat", sensitivity=np.array([[10.0, 9.5]]))
     spec = '[[recording]]\nname = "all"\nfiles = "a.mat"\nunit = "g"\nrate_hz = 1000\ny = "sig"\n'
     with pytest.raises(BadInput, match=r"scale = .*holds 2 numbers from 9\.5 to 10 .*one number, or one of it$"):
         bring(spec + 'scale = {variable = "sensitivity"}\n')
     assert len(bring(spec + 'scale = {variable = "sensitivity[0,1]"}\n')) == 1
+
+
+CONSTANTS = {
+    "rate_hz": [1000.0, 1001.0], "scale": [1.0, 1.1], "bpfo": [3.6, 3.7], "bpfi": [5.4, 5.5], "bsf": [2.3, 2.4],
+    "ftf": [0.39, 0.4], "extent_mm": [1.0, 1.1], "extent_deg": [1.0, 1.1], "depth_um": [1.0, 1.1],
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", CONSTANTS)
+def test_what_is_one_number_for_a_bearing_or_a_sensor_has_no_mean_however_alike(
+    name: str, bring: Bring, mat: Mat
+) -> None:
+    mat("a.mat", held=np.array(CONSTANTS[name]), alike=np.full(2, CONSTANTS[name][0]))
+    spec = '[[recording]]\nname = "all"\nfiles = "a.mat"\nunit = "g"\ny = "sig"\nlocation = "outer"\n'
+    spec += "" if name == "rate_hz" else "rate_hz = 1000\n"
+    with pytest.raises(BadInput, match=rf'{name} = "held": holds 2 numbers from'):
+        bring(f'{spec}{name} = {{variable = "held"}}\n')
+    assert len(bring(f'{spec}{name} = {{variable = "alike"}}\n')) == 1
+
+
+@pytest.mark.parametrize(
+    ("zeros", "mean"), [(0, 1000.0), (10, 500.0), (11, None), (20, 0.0)], ids=["none", "half", "most", "all"]
+)
+def test_a_speed_that_is_0_in_most_places_has_no_mean_but_in_all(
+    zeros: int, mean: float | None, tmp_path: Path, mat: Mat
+) -> None:
+    mat("a.mat", rpm=np.repeat([0.0, 1000.0], [zeros, 20 - zeros]))
+    (tmp_path / "spec.toml").write_text(
+        'name = "mine"\n[[recording]]\nname = "all"\nfiles = "a.mat"\nunit = "g"\nrate_hz = 1000\ny = "sig"\n'
+        'speed_rpm = {variable = "rpm"}\n'
+    )
+    if mean is None:
+        with pytest.raises(BadInput, match="is 0 in 11 of 20 places, so its mean means nothing"):
+            import_recordings(load_spec(tmp_path / "spec.toml"), tmp_path / "corpus")
+        return
+    done = import_recordings(load_spec(tmp_path / "spec.toml"), tmp_path / "corpus")
+    with Corpus(tmp_path / "corpus") as corpus:
+        assert corpus.labels["speed_rpm"].tolist() == [mean]
+        assert corpus.has(0, "shaft_angle") == (zeros == 10)
+    # A row of nothing but 0 is that of a shaft that was not measured, or stands throughout: no place is odd.
+    assert [doubt for doubt in done.doubts if "speed that is 0" in doubt] == [STANDING] * (zeros == 10)
+
+
+def test_a_table_of_one_speed_throughout_is_that_speed(bring: Bring, tmp_path: Path) -> None:
+    signal = np.random.default_rng(1).standard_normal(400)
+    half = np.tile(np.array([1797.0, 1798.0], np.float16), 20)  # whose mean half precision does not hold
+    np.savez(tmp_path / "a.npz", sig=signal, table=np.full((2, 2), 1797.0), half=half)
+    spec = '[[recording]]\nname = "all"\nfiles = "a.npz"\nunit = "g"\nrate_hz = 1000\ny = "sig"\n'
+    for name, rpm in (("table", 1797.0), ("half", 1797.5)):
+        assert bring(f'{spec}speed_rpm = {{variable = "{name}"}}\n', name).labels["speed_rpm"].tolist() == [rpm]
 
 
 def test_a_column_whose_first_place_alone_holds_the_number_has_no_mean(bring: Bring, mat: Mat) -> None:
@@ -133,9 +206,10 @@ def test_a_speed_of_0_is_told_of_the_pieces_that_have_it(tmp_path: Path, mat: Ma
     assert corpus.labels["speed_rpm"].tolist() == pytest.approx([300.0, 1500.0])
 
 
-def test_a_speed_of_0_is_told_of_the_part_that_is_taken(tmp_path: Path, mat: Mat) -> None:
-    _, told = standing(tmp_path, mat, "from_s = 0.5\n")
-    assert told == ("a (13 of 88 places)",)
+@pytest.mark.parametrize(("part", "places"), [("from_s = 0.5", "13 of 88"), ("to_s = 3", "25 of 75")])
+def test_a_speed_of_0_is_told_of_the_part_that_is_taken(part: str, places: str, tmp_path: Path, mat: Mat) -> None:
+    _, told = standing(tmp_path, mat, f"{part}\n")
+    assert told == (f"a ({places} places)",)
 
 
 TACH = (
@@ -234,6 +308,13 @@ def test_beyond_its_pulses_a_shaft_goes_on_at_the_mean_speed_of_a_turn_of_unequa
     assert behind == pytest.approx(4.75 + 0.5)
 
 
+def test_beyond_fewer_pulses_than_a_turn_has_a_shaft_goes_on_at_their_mean_speed() -> None:
+    times = np.array([1.0, 1.01, 1.03, 1.04])  # three of sixty teeth in 0.04 s
+    before, behind = shaft_angle(times, 60.0, np.array([0.0, 2.04])) / (2.0 * np.pi)
+    assert before == pytest.approx(-1.25)
+    assert behind == pytest.approx(0.05 + 1.25)
+
+
 def test_a_shaft_is_steady_if_it_strays_by_less_than_a_tenth_of_a_turn() -> None:
     time = np.linspace(0.0, 1.0, 1000)
     for strays, steady in ((0.09, True), (0.11, False)):
@@ -269,18 +350,25 @@ def test_the_angle_of_the_shaft_is_stored_where_a_tach_says_that_the_speed_chang
 def test_a_channel_of_a_changing_speed_is_summed_up_to_the_angle(bring: Bring, mat: Mat) -> None:
     time = np.arange(8000) / 4000.0
     rpm = 600.0 + 300.0 * (np.arange(400) + 0.5) / 200.0  # from 10 to 20 turns a second in two seconds
-    mat("a.mat", np.random.default_rng(1).standard_normal(time.size), rpm=rpm, steady=np.full(400, 900.0))
+    mat(
+        "a.mat", np.random.default_rng(1).standard_normal(time.size), rpm=rpm, steady=np.full(400, 900.0),
+        khz=rpm / 60e3, swinging=np.concatenate([[-1.0], rpm[1:]]),
+    )  # fmt: skip
     spec = 'files = "a.mat"\nunit = "g"\nrate_hz = 4000\ny = "sig"\n'
     corpus = bring(
         'same_samples = "keep"\n'
         f'[[recording]]\nname = "a"\nrecording = "a"\n{spec}speed_rpm = {{variable = "rpm"}}\n'
         f'[[recording]]\nname = "b"\nrecording = "b"\n{spec}speed_rpm = {{variable = "steady"}}\n'
         f'[[recording]]\nname = "c"\nrecording = "c"\n{spec}cut_s = 0.5\nspeed_rpm = {{variable = "rpm"}}\n'
+        f'[[recording]]\nname = "d"\nrecording = "d"\n{spec}speed_rpm = {{variable = "khz", factor = 60e3}}\n'
+        f'[[recording]]\nname = "e"\nrecording = "e"\n{spec}speed_rpm = {{variable = "swinging"}}\n'
     )
     angle = corpus.waveform(0, "shaft_angle")
     assert np.allclose(angle, 2.0 * np.pi * (10.0 * time + 2.5 * time**2), atol=1e-3)
     assert not corpus.has(1, "shaft_angle")
     assert np.allclose(corpus.waveform(5, "shaft_angle"), angle[6000:] - angle[6000], atol=1e-9)
+    assert np.allclose(corpus.waveform(6, "shaft_angle"), angle, atol=1e-9)
+    assert not corpus.has(7, "shaft_angle")  # of a shaft that seems to turn backwards
 
 
 def test_a_vibration_is_not_taken_for_a_tach(bring: Bring, mat: Mat) -> None:
@@ -291,9 +379,11 @@ def test_a_vibration_is_not_taken_for_a_tach(bring: Bring, mat: Mat) -> None:
     assert refused.value.field == "tach.variable"
 
 
-def test_a_tach_of_a_shaft_that_stands_for_long_is_refused_for_that(bring: Bring, mat: Mat) -> None:
+@pytest.mark.parametrize("others", [[], [27, 30, 33]])
+def test_a_tach_of_a_shaft_that_stands_for_long_is_refused_for_that(others: list[int], bring: Bring, mat: Mat) -> None:
     pulses = np.tile([0.0] * 99 + [1.0], 40)
     pulses[500:2500] = 0.0
+    pulses[100 * np.array(others, dtype=int) + 99] = 0.0
     mat("a.mat", np.random.default_rng(2).standard_normal(4000), tacho=pulses)
     with pytest.raises(BadInput, match="none of its pulses is from") as refused:
         bring(TACH.replace("1000", "2500"))
@@ -347,6 +437,10 @@ def test_the_times_of_pulses_are_by_the_clock_of_the_vibrations_samples(bring: B
     mat("a.mat", t=100.0 + np.arange(400) / 1000.0, tacho=np.arange(99.0, 102.0, 0.04))
     spec = LISTED.replace("rate_hz = 1000", 'rate_hz = {variable = "t", times = true}')
     assert bring(spec).labels["speed_rpm"].tolist() == pytest.approx([1500.0])
+    mat("a.mat", t=1e5 + np.arange(400), tacho=np.arange(99.0, 102.0, 0.04))
+    assert bring(spec.replace("times = true}", "times = true, factor = 1e-3}", 1), "ms").labels[
+        "speed_rpm"
+    ].tolist() == (pytest.approx([1500.0]))
     with pytest.raises(BadInput, match=r"its pulses are from 99 to 10\d s after the first sample, .* lasts 0\.4 s"):
         bring(LISTED, "other clock")
 

@@ -123,3 +123,11 @@ def test_ctrl_z_and_zeros_within_a_table_are_refused(sign: str, bring: Bring, tm
     (tmp_path / "a.csv").write_text("\n".join(["t;acc Y", *ROWS[:60], f"0;{sign}1", *ROWS[60:]]) + "\n")
     with pytest.raises(BadInput, match=r'a\.csv, line 62: y = "acc Y": 1 of 121 cells are not finite numbers'):
         bring(SPEC + 'csv = {delimiter = ";"}\n')
+
+
+@pytest.mark.parametrize("word", ["nan", "inf", "-Infinity"])
+def test_a_word_that_python_takes_for_a_number_is_told_with_its_line(word: str, bring: Bring, tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("\n".join(["t;acc Y", *ROWS[:60], f"0;{word}", *ROWS[60:]]) + "\n")
+    message = rf'a\.csv, line 62: y = "acc Y": 1 of 121 cells are not finite numbers, the first is "{word}"'
+    with pytest.raises(BadInput, match=message):
+        bring(SPEC + 'csv = {delimiter = ";"}\n')

@@ -7,7 +7,18 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from kernels import count_changes, of_ball, press, reset_contact, set_time, touches
+from kernels import (
+    compression_of,
+    count_changes,
+    direction,
+    of_ball,
+    passage,
+    place_of,
+    press,
+    reset_contact,
+    set_time,
+    touches,
+)
 from variants import slipping_cage
 
 from physics.assembly import assemble, ball_numbers
@@ -176,6 +187,17 @@ def test_waves_lie_under_every_ball_as_their_cosines_tell(gearbox, build_scene, 
         assert column(scene, contacts, FALL) == pytest.approx(rate, abs=1e-8 * np.abs(rate).max())
 
 
+def test_waves_have_no_gap_where_rounding_makes_a_whole_turn_of_an_angle_below_zero(gearbox, build_scene):
+    scene = build_scene(gearbox, start_angle=-1e-17, imperfections=Imperfections(waviness=WAVES[:2]))
+    contacts = assemble(scene)
+    set_time(contacts, 0.0)
+    depth = 1e-6 * math.cos(0.4) + 0.5e-6 * math.cos(1.4)
+    assert column(scene, contacts, FLOOR)[0, 0] - scene.rig.bearing.clearance == pytest.approx(depth, abs=1e-15)
+    assert compression_of(contacts, 0, 0.0, 0.0, 0.0, 0.0, 0.0)[0] == pytest.approx(
+        -scene.rig.bearing.clearance - depth, abs=1e-15
+    )
+
+
 @pytest.mark.parametrize("race", ["outer", "inner"])
 def test_a_slipping_cage_carries_its_balls_and_their_rates_along(gearbox, build_scene, race):
     scene = build_scene(gearbox, spall(race), spall(race, 2))
@@ -192,6 +214,78 @@ def test_two_cages_turn_their_rows_independently(gearbox, build_scene):
     )
     for time in (INSTANT, 0.21):
         agree(one, time)
+
+
+def slipping(gearbox, build_scene, race, cages):
+    """Two rows in one cage or in two, each with two spalls of one race, waves and unequal balls."""
+    spalls = [spall(race, row, angle=BOTTOM + angle + 0.3 * row) for angle in (0.0, 2.0) for row in (1, 2)]
+    scene = build_scene(gearbox, *spalls, imperfections=Imperfections(waviness=WAVES, ball_deviation=DEVIATION))
+    second = slipping_cage(scene, 2, 1.4) if cages == 2 else None
+    return dataclasses.replace(scene, cage=slipping_cage(scene, 1), second_cage=second)
+
+
+def columns_of(scene):
+    """The number, row and ball of every ball, all from 0."""
+    rows, balls = ball_numbers(scene)
+    return [(number, rows[number], balls[number]) for number in np.flatnonzero(balls >= 0)]
+
+
+@pytest.mark.parametrize("cages", [1, 2])
+@pytest.mark.parametrize("race", ["outer", "inner"])
+@pytest.mark.parametrize("time", [-0.003, INSTANT, 0.21, 0.56])  # before, within and behind the path of the cage
+def test_a_ball_asked_alone_is_compressed_as_the_plain_sum_tells(gearbox, build_scene, time, race, cages):
+    scene = slipping(gearbox, build_scene, race, cages)
+    contacts, shift, move = assemble(scene), np.array(REST), np.array(MOVING)
+    expected, angle = compression(scene, time, shift), ball_angles(scene, time)
+    after, before = (compression(scene, time + side, shift + side * move) for side in (SECOND, -SECOND))
+    rate = (after - before) / (2 * SECOND)
+    set_time(contacts, time)
+    for number, row, ball in columns_of(scene):
+        found = compression_of(contacts, number, time, *REST, *MOVING)
+        assert found[0] == pytest.approx(expected[row, ball], abs=1e-12)  # the table of a path of 4 µm
+        assert found[1] == pytest.approx(rate[row, ball], abs=DIFFERENCED * np.abs(rate).max())
+        place = divmod(int(number), contacts.balls.shape[2])
+        assert direction(contacts, *place) == pytest.approx(
+            (math.cos(angle[row, ball]), math.sin(angle[row, ball])), abs=1e-12
+        )
+
+
+@pytest.mark.parametrize("cages", [1, 2])
+@pytest.mark.parametrize("race", ["outer", "inner"])
+@pytest.mark.parametrize("step", [1e-4, 6e-3, -6e-3])  # s; in the longer ones a ball covers up to half a spacing
+def test_the_balls_that_meet_a_spall_in_a_step_are_those_whose_way_leads_over_it(
+    gearbox, build_scene, step, race, cages
+):
+    scene = slipping(gearbox, build_scene, race, cages)
+    track, met = assemble(scene).track, []
+    for time in np.linspace(0.01, 0.4, 40):
+        for place, spall in enumerate(scene.spalls):
+            along, speed = (1, 0.0) if spall.race == "outer" else (-1, scene.operation.shaft_speed)
+            angle, later = (ball_angles(scene, t)[spall.row - 1] for t in (time, time + step))
+            way = along * (later[0] - angle[0] - speed * step)
+            arc = along * (angle - spall.angle - speed * time)
+            # Whole turns that bring the way's middle next to the spall.
+            arc -= 2 * np.pi * np.round((arc + way / 2) / (2 * np.pi))
+            meets = (np.minimum(arc, arc + way) <= spall.extent / 2) & (np.maximum(arc, arc + way) >= -spall.extent / 2)
+            travel, hind, turns, leave = passage(track, place, time, step)
+            count = math.floor((leave - hind) / track.spacing) + 1
+            first = (spall.row - 1) * track.row_size if cages == 1 else 0
+            found = [place_of(track, place, turns + k) - first for k in range(count)]
+            assert travel == pytest.approx(way, abs=1e-12)
+            assert sorted(found) == np.flatnonzero(meets).tolist()
+            assert hind + track.spacing * np.arange(count) == pytest.approx(arc[found], abs=1e-9)
+            met.append(count)
+    assert len(set(met)) > 1
+
+
+@pytest.mark.parametrize("race", ["outer", "inner"])
+def test_balls_are_counted_round_the_row_from_wherever_the_hindmost_is(gearbox, build_scene, race):
+    track = assemble(build_scene(gearbox, spall(race, 2))).track
+    for row in range(3, 61):
+        short = track._replace(row_size=row)
+        found = [place_of(short, 0, float(turns)) for turns in range(-3 * row, 3 * row + 1)]
+        along = 1 if race == "outer" else -1
+        assert found == [12 + along * turns % row for turns in range(-3 * row, 3 * row + 1)]
 
 
 def test_the_film_s_force_is_the_damping_times_the_total_derivative_of_the_compression(gearbox, build_scene):

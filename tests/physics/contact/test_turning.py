@@ -19,8 +19,7 @@ def test_cosine_and_sine_are_right_to_the_last_places(size):
     found = np.empty((angles.size, 2))
     both(angles, found)
     exact = np.column_stack([np.cos(angles.astype(np.longdouble)), np.sin(angles.astype(np.longdouble))])
-    # Two units in the last place; near a zero the argument itself is known to 2e-16 of its size only.
-    assert np.abs(found - exact).max() < 4.5e-16 + 2.3e-16 * size * (size > 1e5)
+    assert np.abs(found - exact).max() < 4.5e-16  # two units in the last place
 
 
 def test_the_square_sum_is_one():

@@ -9,6 +9,7 @@ from scipy.linalg import expm
 from physics.cage import CagePath
 from physics.integrators.output import Grid
 from physics.integrators.propagator import (
+    CUBE,
     FIRST,
     HALF,
     LAST,
@@ -69,13 +70,12 @@ def exponential(matrix, step):
 
 
 def phi_kicks(matrix, step, outer_mass):
-    """φm(step · L) b step for m = 1, 2, 3 as rows (3, 4): the corner of the exponential of an augmented matrix."""
+    """φm(step · L) b step for m = 1 to 4 as rows (4, 4): the corner of the exponential of an augmented matrix."""
     unit = units(matrix)
-    chain = np.zeros((7, 7))
+    chain = np.zeros((8, 8))
     chain[:4, :4] = step * matrix * unit / unit[:, None]
-    chain[1, 4] = step / outer_mass / unit[1]
-    chain[4, 5] = chain[5, 6] = 1.0
-    return expm(chain)[:4, 4:].T * unit
+    chain[1, 4] = chain[4, 5] = chain[5, 6] = chain[6, 7] = 1.0
+    return expm(chain)[:4, 4:].T * (step / outer_mass / unit[1]) * unit
 
 
 @pytest.mark.parametrize("share", [1.0, 0.37, 1e-3])
@@ -91,8 +91,8 @@ def test_the_weights_of_a_step_are_krogstads_combinations_of_phi_functions(name,
     for axis in range(2):
         matrix = matrix_by_hand(scene.rig, axis)
         unit = units(matrix)
-        one, two, three = phi_kicks(matrix, step, scene.rig.outer_mass)
-        half_one, half_two, _ = phi_kicks(matrix, step / 2.0, scene.rig.outer_mass)
+        one, two, three, four = phi_kicks(matrix, step, scene.rig.outer_mass)
+        half_one, half_two, *_ = phi_kicks(matrix, step / 2.0, scene.rig.outer_mass)
         flow = np.concatenate([exponential(matrix, step), exponential(matrix, step / 2.0)[:2]])
         error = np.abs(weights[axis, WHOLE : HALF + 2] - flow) * unit / np.resize(unit, 6)[:, None]
         assert error.max() < 1e-12  # round-off of terms up to e^8 = 3000
@@ -103,6 +103,7 @@ def test_the_weights_of_a_step_are_krogstads_combinations_of_phi_functions(name,
             TO_2_3: np.concatenate([half_one[:2], half_one[:2] - 2.0 * half_two[:2]]),
             TO_3_4: np.concatenate([2.0 * half_two[:2], one[:2] - 2.0 * two[:2]]),
             TO_4: 2.0 * two[:2],
+            CUBE: four,
         }
         for row, expected in kicks.items():
             error = np.abs(weights[axis, row, : expected.size] - expected) / np.resize(unit, expected.size)

@@ -8,9 +8,9 @@ def bytes_text(count: float) -> str:
     return f"{count / 1e9:.1f} GB" if count >= 1e9 else f"{count / 1e6:.1f} MB"
 
 
-def counted(count: int, what: str) -> str:
-    """A number of things, as "1 record" or "2 records"."""
-    return f"{count} {what}" if count == 1 else f"{count} {what}s"
+def counted(count: int, what: str, ending: str = "s") -> str:
+    """A number of things, as "1 record" or "2 records"; `ending` makes more than one of `what`."""
+    return f"{count} {what}" if count == 1 else f"{count} {what}{ending}"
 
 
 def digits(value: float, count: int) -> str:

@@ -174,12 +174,13 @@ def print_learning_curve(results: Results) -> None:
 
 def print_mended(found: CorpusScores) -> None:
     """Print what was taken out of the signals of a corpus before features were computed."""
-    if found.levelled["jumps"]:
-        print("  levelled   {jumps} jumps in {records} records".format(**found.levelled))
-    if found.despiked["glitches"]:
-        print("  despiked   {glitches} glitches in {records} records".format(**found.despiked))
-    if found.shocks_cut["shocks"]:
-        print("  shocks cut {shocks} in {records} records".format(**found.shocks_cut))
+    jumps, glitches, shocks = found.levelled["jumps"], found.despiked["glitches"], found.shocks_cut["shocks"]
+    if jumps:
+        print(f"  levelled   {counted(jumps, 'jump')} in {counted(found.levelled['records'], 'record')}")
+    if glitches:
+        print(f"  despiked   {counted(glitches, 'glitch', 'es')} in {counted(found.despiked['records'], 'record')}")
+    if shocks:
+        print(f"  shocks cut {shocks} in {counted(found.shocks_cut['records'], 'record')}")
 
 
 def score_line(scores: Scores) -> str:

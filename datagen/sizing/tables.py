@@ -6,6 +6,7 @@ import math
 
 from rich.table import Table
 
+from datagen.counts import counted
 from datagen.sizing.known_sizes import KnownSize
 from datagen.sizing.scored_record import ScoredRecord, Truth
 from datagen.sizing.size_summary import Figure, SizeSummary, StatedSizes
@@ -104,9 +105,10 @@ def stated_sentence(stated: StatedSizes) -> str:
 def known_size_sentence(known: KnownSize) -> str:
     """What the known size of a record changed."""
     change = 100.0 * (known.factor - 1.0)
+    others = f"{counted(known.corrected, 'other record')} of {known.machine}"
     sentence = (
         f"record {known.record} is known to have {known.known_mm:g} mm and was estimated at {known.estimated_mm:.3g} "
-        f"mm, which changes the sizes of {known.corrected} other records of {known.machine} by {change:+.2f} %"
+        f"mm, which changes the sizes of {others} by {change:+.2f} %"
     )
     if math.isnan(known.arc_error_without):
         return sentence

@@ -95,7 +95,7 @@ def test_the_other_records_of_the_machine_are_corrected_and_no_others(corpus: Pa
     assert (known["record"], known["machine"], known["corrected"]) == (0, "one", 1)
     assert (known["known_mm"], known["estimated_mm"], known["factor"]) == (2.5, 2.0, factor)
     assert known["arc_error_with"] is None
-    assert "changes the sizes of 1 other records of one by +0.25 %" in said
+    assert "changes the sizes of 1 other record of one by +0.25 %" in said
 
 
 def test_without_a_known_bearing_the_rig_is_the_machine(corpus: Path) -> None:

@@ -26,8 +26,7 @@ MACHINES = 240
 
 
 def ingredients_of(train: Path) -> Ingredients | None:
-    """The ingredients that `--train impulse-trains` or `impulse-trains-without-NAME` asks for; None for
-    anything else.
+    """The ingredients that `--train impulse-trains` or `impulse-trains-without-NAME` asks for, None for anything else.
 
     Raises BadInput for a name that is no ingredient.
     """

@@ -48,7 +48,8 @@ class KeptRows:
             if kept["features"].tolist() != list(FEATURE_NAMES):
                 problem = "the features have changed since these rows were kept"
                 raise BadInput(problem, field="--train", value=TRANSFER_ROWS, allowed="a corpus of the recipe transfer")
-            rows = Rows(kept["table"].astype(np.float64), kept["record"].astype(np.int64), kept["axis"], kept["noisy"])
+            table, record, axis = kept["table"].astype(np.float64), kept["record"], kept["axis"]
+            rows = Rows(table, record.astype(np.int64), axis.astype(np.int64), kept["noisy"])
             whole = TrainingSet(rows, np.array(CLASSES)[kept["class_of_row"]], kept["bearings"][kept["bearing_of_row"]])
             self._bearings, self._machines, self.recipe = kept["bearings"], kept["machines"], str(kept["recipe"])
         chosen = np.unique(rows.record)[:first]

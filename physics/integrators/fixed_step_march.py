@@ -189,11 +189,8 @@ def _march(
 
     Returns DONE, NOT_FINITE or LOG_FULL.
     """
-    now, then, work = (
-        start_state.copy(),
-        np.empty(start_state.size),
-        workspace(contacts.balls.shape[0], contacts.balls.shape[2]),
-    )
+    cages, _, balls = contacts.balls.shape
+    now, then, work = start_state.copy(), np.empty(start_state.size), workspace(cages, balls)
     set_step(series, work.weights, 1.0)
     force = find_contact(contacts, now, output)
     ahead, pace = 0, np.full(1, grid.step)
@@ -213,6 +210,7 @@ def _march(
                     now, then = then, now
                     force = after
                     continue
+                # The next step begins where this one did, and may look at how the balls move there.
                 set_time(contacts, start)
                 press_state(contacts, now)
             force = cross(contacts, motion, series, stops, Span(start, finish, ahead), now, force, pace, output)

@@ -41,9 +41,10 @@ def test_the_race_is_scored_of_every_fault_whether_it_raised_the_alarm_or_not():
     assert scores.detection_auc.value == pytest.approx(1.0 / 3.0)  # of three faults with a score one is above 0.3
 
 
-def test_every_score_is_of_its_own_answers_as_counted_by_hand():
-    """Four faults of the outer race, two of the inner one, three healthy records, one of which is rejected, and one of
-    which nobody knows what it is."""
+@pytest.fixture(scope="module")
+def counted_by_hand():
+    """Scores of a rule and a model on four faults of the outer race, two of the inner one, three healthy records, of
+    which one is rejected, and one record of which nobody knows what it is."""
     model = Verdicts(
         name="model",
         location=np.array(["outer", "outer", "outer", "none", "inner", "outer", "none", "inner", "rejected", "outer"]),
@@ -77,29 +78,52 @@ def test_every_score_is_of_its_own_answers_as_counted_by_hand():
         facts=(RecordFacts(),) * 10,
         verdicts=(rule, model),
     )
-    summary = summarise(tested)
-    assert summary.locations == {"none": 3, "outer": 4, "inner": 2, "unknown": 1}
-    found = summary.models["model"]
+    return summarise(tested)
+
+
+def test_faults_and_locations_are_counted_by_what_is_said_of_each(counted_by_hand):
+    assert counted_by_hand.locations == {"none": 3, "outer": 4, "inner": 2, "unknown": 1}
+    found = counted_by_hand.models["model"]
     assert found.faults_balanced_accuracy.value == pytest.approx((3 / 4 + 1 / 2) / 2)
     assert found.location_balanced_accuracy.value == pytest.approx((3 / 4 + 1 / 2 + 1 / 3) / 3)
     assert found.race_accuracy.value == pytest.approx(5 / 6)
+    assert found.confusion.rows == ("none", "outer", "inner", "unknown")
+    assert found.confusion.counts == [[1, 0, 1, 1], [1, 3, 0, 0], [0, 1, 1, 0], [0, 1, 0, 0]]
+
+
+def test_healthy_records_are_alarms_rejected_or_left_alone(counted_by_hand):
+    found = counted_by_hand.models["model"]
     assert (found.healthy, found.false_alarms, found.rejected) == (3, 1, 1)
     assert (found.healthy_bearings, found.alarming_bearings, found.healthy_of_unknown_bearing) == (1, 1, 0)
     # Healthy records have 0.1, 0.65 and 0.3: of 18 pairs 0.2 lies below two of them and 0.6 below one.
     assert found.detection_auc.value == pytest.approx(15 / 18)
-    assert found.confusion.rows == ("none", "outer", "inner", "unknown")
-    assert found.confusion.counts == [[1, 0, 1, 1], [1, 3, 0, 0], [0, 1, 1, 0], [0, 1, 0, 0]]
-    assert found.minus_rule.faults_balanced_accuracy.value == pytest.approx(0.625 - (1 / 4 + 0.0) / 2)
-    assert found.minus_rule.race_accuracy.value == pytest.approx(5 / 6 - 3 / 6)
+
+
+def test_the_rule_is_taken_from_the_model_score_by_score(counted_by_hand):
+    minus_rule = counted_by_hand.models["model"].minus_rule
+    assert minus_rule.faults_balanced_accuracy.value == pytest.approx(0.625 - (1 / 4 + 0.0) / 2)
+    assert minus_rule.race_accuracy.value == pytest.approx(5 / 6 - 3 / 6)
     # The rule's six faults lie above 3, 1, 1, 1, 1 and 1 of the healthy records, which have 1.6, 1.0 and 1.7.
-    assert found.minus_rule.detection_auc.value == pytest.approx(15 / 18 - 8 / 18)
+    assert minus_rule.detection_auc.value == pytest.approx(15 / 18 - 8 / 18)
+
+
+def test_conditions_are_counted_beside_locations(counted_by_hand):
+    condition = counted_by_hand.models["model"].condition
     # Of line spalls two of four are called so, of extended ones one of two, of healthy records one of three.
-    assert found.condition.condition_balanced_accuracy.value == pytest.approx((2 / 4 + 1 / 2 + 1 / 3) / 3)
-    assert found.condition.condition_confusion.counts == [[1, 1, 0, 1], [1, 2, 1, 0], [0, 1, 1, 0]]
-    (small, large) = found.accuracy_against["extent_mm"]
+    assert condition.condition_balanced_accuracy.value == pytest.approx((2 / 4 + 1 / 2 + 1 / 3) / 3)
+    assert condition.condition_confusion.counts == [[1, 1, 0, 1], [1, 2, 1, 0], [0, 1, 1, 0]]
+
+
+def test_accuracy_is_told_against_what_differs_between_records(counted_by_hand):
+    against = counted_by_hand.models["model"].accuracy_against
+    (small, large) = against["extent_mm"]
     assert (small["at"], small["records"], small["accuracy"]) == (1.0, 3, 1.0)
     assert (large["at"], large["records"], large["accuracy"]) == (3.0, 3, pytest.approx(1 / 3))
-    assert set(found.accuracy_against) == {"extent_mm"}  # of what is the same of all, nothing is told
-    # Healthy and faulty records weigh the same: in the bin of 0.6 to 0.7 one of six faults and one of three healthy.
-    place = found.calibration.reliability["predicted"].index(pytest.approx((0.6 / 6 + 0.65 / 3) / (1 / 6 + 1 / 3)))
-    assert found.calibration.reliability["observed"][place] == pytest.approx((1 / 6) / (1 / 6 + 1 / 3))
+    assert set(against) == {"extent_mm"}  # of what is the same of all, nothing is told
+
+
+def test_healthy_and_faulty_records_weigh_the_same_in_reliability(counted_by_hand):
+    reliability = counted_by_hand.models["model"].calibration.reliability
+    # In the bin of 0.6 to 0.7 there are one of six faults and one of three healthy records.
+    place = reliability["predicted"].index(pytest.approx((0.6 / 6 + 0.65 / 3) / (1 / 6 + 1 / 3)))
+    assert reliability["observed"][place] == pytest.approx((1 / 6) / (1 / 6 + 1 / 3))

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryFile
+from typing import IO
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +14,7 @@ from scipy import fft
 
 from datagen.benchmark.rows import Rows
 from datagen.corpus import Corpus
+from datagen.files.temporary import no_temporary_file
 from datagen.progress import Count, ignore
 from labels.dead_sensor import is_dead
 from physics.arrays import Array
@@ -31,11 +34,11 @@ def read_windows(folder: Path, records: NDArray[np.int64], rate: float, count: C
 
     An axis whose sensor is dead has none. What the window is too long for is padded with silence. They lie in a
     temporary file, read as they are needed, so that memory does not grow with the corpus. `count` is called with how
-    many records are read.
+    many records are read. Raises NoTemporaryRoom where that file does not fit.
     """
     owners: list[int] = []
     axes: list[int] = []
-    with Corpus(folder) as corpus, TemporaryFile() as file:
+    with Corpus(folder) as corpus, _temporary_file(records.size) as file:
         rates = corpus.labels.set_index("record")["rate_hz"]
         for done, record in enumerate(records.tolist(), start=1):
             for axis, signal in enumerate(np.asarray(corpus.waveform(record), dtype=np.float64).T):
@@ -51,6 +54,18 @@ def read_windows(folder: Path, records: NDArray[np.int64], rate: float, count: C
         table = np.memmap(file, np.float32, "r", shape=shape) if owners else np.empty(shape, np.float32)
     owner, of_axis = np.array(owners, dtype=np.int64), np.array(axes, dtype=np.int64)
     return Rows(table, owner, of_axis, np.zeros(len(owners), dtype=bool))
+
+
+@contextmanager
+def _temporary_file(records: int) -> Iterator[IO[bytes]]:
+    """A temporary file for the windows of so many records; BadInput that names its folder where it cannot be written,
+    as corpora that cannot be read are told by their own."""
+    try:
+        with TemporaryFile() as file:
+            yield file
+    except OSError as problem:
+        needed = records * MOST_WINDOWS * WINDOW_SAMPLES * np.dtype(np.float32).itemsize
+        raise no_temporary_file(problem, needed, "a folder with room for all windows") from None
 
 
 def resampled(signal: Array, rate: float, target: float) -> Array:

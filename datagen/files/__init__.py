@@ -1,6 +1,7 @@
 """Files of any kind: written whole or not at all, read with clear messages.
 
-- `places`: where results may go; `atomic`: absent or whole; `results`: picture, table and JSON of one name
+- `places`: where results may go; `temporary`: what to say where no temporary file can; `atomic`: absent or whole;
+  `results`: picture, table and JSON of one name
 - `digest` of a file's bytes; `plain` (data and JSON), `csv_rows`
 - `netcdf`, whose datasets are filled with ready chunks (`chunk`); `time_stamps`: what it tells of when, cleared
 """

@@ -11,7 +11,6 @@ closed.
 
 from __future__ import annotations
 
-import shutil
 import threading
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -19,14 +18,14 @@ from functools import cache
 from importlib.util import find_spec
 from itertools import product
 from pathlib import Path
-from tempfile import TemporaryDirectory, gettempdir
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from datagen.counts import bytes_text
 from datagen.errors import BadInput
 from datagen.files.chunk import chunk_bytes
+from datagen.files.temporary import no_temporary_file
 from datagen.files.time_stamps import clear_time_stamps
 
 if TYPE_CHECKING:
@@ -39,6 +38,8 @@ LONG_DIMENSIONS = ("time", "stiffness_time", "profile_angle")
 # Texts of more bytes are stored in a chunk each.
 LONG_TEXT = 1024
 IMAGE_BLOCK = 1 << 22
+# More than a file takes besides its values.
+LAYOUT_BYTES = 1 << 20
 # The netCDF library crashes when two threads use it. Closing may happen inside writing, when memory is collected.
 ONE_AT_A_TIME = threading.RLock()
 
@@ -55,8 +56,8 @@ def check_compression(compression: str) -> None:
 
 
 def netcdf_bytes(dataset: xarray.Dataset, compression: str) -> bytes | bytearray:
-    """The bytes of a netCDF-4 file of `dataset`; raises BadInput for a compression that is not offered, and where no
-    temporary file can be written.
+    """The bytes of a netCDF-4 file of `dataset`; raises BadInput for a compression that is not offered, and
+    NoTemporaryRoom where no temporary file can be written.
 
     Nothing in them says when they were made. They are whole before any is written where it is to stay: a file that
     netCDF fills in place and that is cut short opens cleanly and holds NaN. Other programs may add variables to the
@@ -132,7 +133,7 @@ def _as_stored(variable: xarray.Variable) -> _Stored:
 def _laid_out(stored: dict[str, _Stored], attributes: dict[str, Any], compression: str, with_values: bool) -> bytearray:
     """A netCDF file of all dimensions, variables and attributes, and perhaps the values; without time stamps.
 
-    Raises BadInput if it cannot be laid out, as where there is no room for temporary files.
+    Raises BadInput if it cannot be laid out; NoTemporaryRoom where there is no room for temporary files.
     """
     # On the disk: what netCDF lays out in memory lacks the order of creation without which it writes to no file again.
     try:
@@ -141,20 +142,10 @@ def _laid_out(stored: dict[str, _Stored], attributes: dict[str, Any], compressio
             _lay_out(path, stored, attributes, compression, with_values)
             image = bytearray(path.read_bytes())
     except (OSError, RuntimeError) as problem:  # netCDF calls a full disk an HDF error, or a lack of permission
-        raise _no_temporary_file(problem) from None
+        values = sum(one.values.nbytes for one in stored.values()) if with_values else 0
+        raise no_temporary_file(problem, LAYOUT_BYTES + values, "a folder with room for a shard") from None
     clear_time_stamps(image)
     return image
-
-
-def _no_temporary_file(problem: Exception) -> BadInput:
-    """The error of a file that cannot be laid out in the folder of temporary files."""
-    try:
-        folder = gettempdir()
-        free = f", in which {bytes_text(shutil.disk_usage(folder).free)} are free"
-    except OSError:  # there is none
-        folder, free = "", ""
-    said = f"a file cannot be laid out in this folder of temporary files{free} ({problem})"
-    return BadInput(said, folder, "TMPDIR", allowed="a folder with room for a shard")
 
 
 def _lay_out(

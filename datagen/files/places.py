@@ -37,7 +37,7 @@ def require_folder(folder: Path, field: str = OUT) -> None:
             value=str(folder),
             allowed="a new or existing folder",
         )
-    if not _writable(nearest):
+    if not is_writable(nearest):
         raise BadInput(
             f"cannot write into {nearest}", field=field, value=str(folder), allowed="a folder that you may write into"
         )
@@ -91,10 +91,10 @@ def _against_file(path: Path) -> str:
         return "no such folder"
     if path.exists() and not path.is_file():  # a pipe or a terminal is written to as it is
         return "" if os.access(path, os.W_OK) else "cannot write to it"
-    return "" if _writable(parent) else f"cannot write into {parent}"
+    return "" if is_writable(parent) else f"cannot write into {parent}"
 
 
-def _writable(folder: Path) -> bool:
+def is_writable(folder: str | Path) -> bool:
     """True if a file can be made in `folder`, which permissions alone do not tell; none is left there."""
     try:
         with tempfile.TemporaryFile(dir=folder):

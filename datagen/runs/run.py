@@ -18,6 +18,7 @@ from datagen.corpus_files.shard import Failure, sweep_unfinished
 from datagen.counts import bytes_text, counted
 from datagen.files.atomic import NO_SPACE, write_atomically
 from datagen.files.places import FAILURES
+from datagen.files.temporary import NoTemporaryRoom
 from datagen.progress import Listener
 from datagen.recipes.recipe import Recipe
 from datagen.runs.finished import Finished, find_finished
@@ -94,8 +95,14 @@ class Run:
         except OSError as problem:
             if problem.errno not in NO_SPACE:
                 raise
-            self._rescan()
-            self.problem = self._out_of_space(problem, self.finished.lacking(planned, self.wanted))
+            self.problem = self._out_of_space(problem, self._lacking(planned))
+        except NoTemporaryRoom as problem:
+            self.problem = f"{problem}; {_left_to_make(self._lacking(planned))}"
+
+    def _lacking(self, planned: Sequence[PlannedShard]) -> list[PlannedShard]:
+        """What is not made, by what is on the disk now."""
+        self._rescan()
+        return self.finished.lacking(planned, self.wanted)
 
     def _begin(self) -> None:
         """Sweep what killed writers left, and write the manifest, so that an interrupted folder says what it is."""
@@ -221,10 +228,7 @@ class Run:
             errno.EFBIG: ("files may not be as large as a shard here (ulimit -f)", f"files of {bytes_text(largest)}"),
             errno.EDQUOT: ("the quota of this disk is used up", bytes_text(needed_bytes(todo))),
         }.get(problem.errno or 0, ("the disk is full", f"{bytes_text(missing)} more"))
-        return (
-            f"{cause}: {sum(len(shard.records) for shard in todo)} records have not been made, and about {needed} are "
-            "needed; finished shards are kept; the same command continues from there"
-        )
+        return f"{cause}: {_left_to_make(todo, f', and about {needed} are needed')}"
 
     def _failures(self) -> list[Failure]:
         """The records that could not be made, by index. Of a shard that failed an earlier file may hold some records,
@@ -249,3 +253,11 @@ def _time_limit(todo: Sequence[PlannedShard]) -> float:
     """Seconds far above what any of the shards can take."""
     longest = max(len(shard.records) * shard.record_seconds for shard in todo)
     return LONGEST_TASK_BASE + LONGEST_TASK_FACTOR * longest
+
+
+def _left_to_make(todo: Sequence[PlannedShard], needed: str = "") -> str:
+    """What a run that stopped before its end leaves to the next, and what that needs."""
+    records = sum(len(shard.records) for shard in todo)
+    return (
+        f"{records} records have not been made{needed}; finished shards are kept; the same command continues from there"
+    )

@@ -12,6 +12,7 @@ from datagen.corpus_files.format import SIMULATED_ATTRIBUTES, Identity, to_datas
 from datagen.corpus_files.shard import Failure, Sidecar, write_shard
 from datagen.errors import BadInput
 from datagen.files.atomic import NO_SPACE
+from datagen.files.temporary import NoTemporaryRoom
 from datagen.freed_memory import keep_freed_memory
 from datagen.progress import Say
 from datagen.recipes.recipe import Recipe
@@ -51,7 +52,8 @@ def load_kernels() -> None:
 
 
 def make_shard(recipe: Recipe, folder: Path, planned: PlannedShard, identity: Identity) -> ShardRow:
-    """Make and write all records of a planned shard; raises OSError only if the disk is full.
+    """Make and write all records of a planned shard; raises what no other shard would escape: OSError if the disk is
+    full, NoTemporaryRoom if that of temporary files is.
 
     The process keeps the memory of freed arrays from then on (datagen.freed_memory).
     """
@@ -59,7 +61,9 @@ def make_shard(recipe: Recipe, folder: Path, planned: PlannedShard, identity: Id
     try:
         load_kernels()
         return _make_shard(recipe, folder, planned, identity)
-    except BadInput as problem:  # such as no room for temporary files
+    except NoTemporaryRoom:
+        raise
+    except BadInput as problem:  # such as a recording that is gone
         return ShardRow(planned.number, str(problem))
     except Exception as problem:
         if isinstance(problem, OSError) and problem.errno in NO_SPACE:

@@ -5,6 +5,7 @@ import pytest
 
 from datagen.benchmark.windows import WINDOW_SAMPLES, common_rate, cut, read_windows, resampled
 from datagen.corpus import Corpus
+from datagen.files.temporary import NoTemporaryRoom
 
 
 def test_raw_windows_of_any_rate_hold_the_same_tone():
@@ -39,6 +40,12 @@ def test_raw_windows_lie_in_a_file_and_are_those_of_the_records(tiny_corpus):
     np.testing.assert_allclose(found.table[: len(first)], first, rtol=1e-6, atol=1e-12)  # float32 in the file
     assert set(found.record.tolist()) == {record}
     assert found.axis.tolist() == np.repeat([0, 1], len(found) // 2).tolist()
+
+
+def test_windows_that_find_no_room_name_the_folder_of_temporary_files(tiny_corpus, monkeypatch, tmp_path):
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path / "none"))
+    with pytest.raises(NoTemporaryRoom, match=r"^TMPDIR: .*No such file or directory.*room for all windows$"):
+        read_windows(tiny_corpus, np.array([0]), 1000.0)
 
 
 def test_an_axis_whose_sensor_is_dead_has_no_windows(tiny_corpus, monkeypatch):

@@ -25,6 +25,7 @@ import datagen.corpus_files.index
 import datagen.corpus_files.manifest
 import datagen.corpus_files.shard
 import datagen.runs.run
+import datagen.runs.task
 from datagen.commands.progress_display import Lines
 from datagen.corpus_files.index import index_path, read_index
 from datagen.corpus_files.manifest import read_manifest
@@ -443,13 +444,23 @@ def test_an_unforeseen_error_costs_its_shard_only_and_is_tried_again(
     assert not (tmp_path / "out" / "failed.jsonl").exists()
 
 
-def test_records_that_lack_room_for_temporary_files_are_told_so_in_one_sentence(
+def test_a_run_stops_in_one_sentence_where_there_is_no_room_for_temporary_files(
     tiny: Recipe, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    tries: list[int] = []
+    make_record = datagen.runs.task.make_record
+    monkeypatch.setattr(datagen.runs.task, "make_record", lambda *given: tries.append(1) or make_record(*given))
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path / "none"))
-    run = generate(tiny, tmp_path / "out", limit=2, engine=ALONE)
-    assert (run.made, {failure.reason.count("\n") for failure in run.failed}) == (0, {0})
-    assert "TMPDIR: a file cannot be laid out in this folder of temporary files" in run.failed[0].reason
+    run = generate(tiny, tmp_path / "out", engine=ALONE)
+    assert (run.made, run.failed, run.complete) == (0, (), False)
+    assert run.problem.startswith("TMPDIR: a file cannot be laid out in this folder of temporary files")
+    assert run.problem.endswith(
+        "; 14 records have not been made; finished shards are kept; the same command continues from there"
+    )
+    # The shard that met it is the only one whose records were made in vain.
+    assert len(tries) <= max(len(shard.records) for shard in plan_shards(tiny, 14))
+    monkeypatch.undo()
+    assert generate(tiny, tmp_path / "out", engine=ALONE).complete
 
 
 def test_records_of_an_earlier_file_are_not_called_lost_when_making_the_shard_again_goes_wrong(

@@ -11,6 +11,7 @@ from datagen.cards.facts import Facts, Kind, corpus_facts
 from datagen.cards.origin_text import origin_text
 from datagen.cards.vocabulary_table import vocabulary_table
 from datagen.corpus import Corpus
+from datagen.corpus_files.manifest import read_manifest
 from datagen.errors import BadInput
 from datagen.files.atomic import write_results
 from datagen.files.places import OUT, from_home, require_folder
@@ -36,13 +37,10 @@ def write_report(folder: str | Path, out: str | Path | None = None) -> Report:
     everything is drawn.
     """
     folder = from_home(folder)
-    if out is None:
-        facts, out = corpus_facts(folder), folder / "report"  # what is no corpus is told as that
-        _check_folder(out)
-    else:
-        out = from_home(out)
-        _check_folder(out)
-        facts = corpus_facts(folder)
+    read_manifest(folder)  # what is no corpus is told as that, and not as a place where no report can be put
+    out = folder / "report" if out is None else from_home(out)
+    _check_folder(out)
+    facts = corpus_facts(folder)
     if not facts.info.records:
         raise BadInput("this corpus holds no records yet", str(folder))
     contents = _contents(folder, facts, out)

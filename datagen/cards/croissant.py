@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import Any
 
 from datagen.cards.facts import Facts
-from datagen.corpus_files.index import INDEX, PLACE_COLUMNS, index_path
-from datagen.corpus_files.shard import SHARDS
+from datagen.corpus_files.index import PLACE_COLUMNS, index_path
 from datagen.files.digest import file_hash
+from datagen.files.places import INDEX, SHARDS
 from labels.schema import LABELS
 
 CONFORMS_TO = "http://mlcommons.org/croissant/1.0"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -61,7 +62,7 @@ def _numbers(option: str, text: str) -> list[int]:
         numbers = [int(part) for part in text.split(",")]
     except ValueError:
         raise BadInput(field=option, value=text, allowed="whole numbers separated by commas, such as 17,40") from None
-    twice = next((number for number in numbers if numbers.count(number) > 1), None)
+    twice = next((number for number, times in Counter(numbers).items() if times > 1), None)
     if twice is not None:
         raise BadInput(f"{twice} is listed more than once", field=option, value=text, allowed="each record once")
     return numbers

@@ -15,7 +15,7 @@ from datagen.commands.termination import Terminated, terminable
 from datagen.commands.usage import Program
 from datagen.errors import BadInput
 from datagen.exits import BAD_INPUT, FAILED, INTERRUPTED, TERMINATED, print_error
-from datagen.files.places import from_home, require_file
+from datagen.files.places import from_home, refuse_file_of_corpus, require_file
 from physics.outcome import SimulationFailed
 
 if TYPE_CHECKING:
@@ -131,11 +131,12 @@ def _from_home(value: Any) -> Any:
 
 
 def _check_json(json_file: Path | None, **others: Any) -> None:
-    """Refuse a file of results that cannot be written, or that one of the `others` names too and that would be lost,
-    before any work is done."""
+    """Refuse a file of results that cannot be written, or that would be lost or destroy another: one that the `others`
+    name too, or one of the corpus in a folder that they name. Before any work is done."""
     if json_file is None:
         return
     require_file(json_file, "--json")
+    refuse_file_of_corpus(json_file, "--json", (named for named in others.values() if isinstance(named, Path)))
     known = {os.path.realpath(named) for named in others.values() if _is_place(named)}
     if os.path.realpath(json_file) in known and (json_file.is_file() or not json_file.exists()):
         problem = "the results would replace what another option or argument names"

@@ -17,12 +17,12 @@ from datagen.corpus_files.manifest import no_corpus
 from datagen.corpus_files.shard import LABEL_COLUMNS, Sidecar, shard_path
 from datagen.errors import BadInput, at_line
 from datagen.files.atomic import opened_atomically
+from datagen.files.places import INDEX
 from labels.schema import LABELS
 
 if TYPE_CHECKING:
     import pandas
 
-INDEX = "index.csv"
 PLACE_COLUMNS = ("shard", "position")
 COLUMN_TYPES = {column: label.dtype for label in LABELS for column in label.columns}
 PLACE_TYPES = {"shard": "str", "position": "int64"}

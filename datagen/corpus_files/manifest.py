@@ -139,6 +139,13 @@ def read_manifest(folder: Path) -> Manifest:
         raise kind(f"not a manifest of a corpus: {_in_words(problem)}{remedy}", str(path)) from None
 
 
+def stated_records(folder: Path) -> object:
+    """The number of records that the readable manifest of the corpus `folder` states for people and for programs of
+    others, None if it states none; `Manifest.records` counts them instead."""
+    stated: object = json.loads(manifest_path(folder).read_text()).get("records")
+    return stated
+
+
 def no_corpus(folder: Path, lacking: str) -> BadInput:
     """The error of a `folder` that is no corpus because it has no file called `lacking`."""
     if not folder.exists():

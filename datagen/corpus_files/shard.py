@@ -13,13 +13,13 @@ from datagen.corpus_files.format import Identity, content_hash, format_hash
 from datagen.corpus_files.json_values import UNREADABLE, amount, row, text, whole
 from datagen.files.atomic import sweep_temporaries, write_atomically
 from datagen.files.netcdf import netcdf_bytes
+from datagen.files.places import SHARDS
 from datagen.scenarios.redraw import Refused
 from labels.schema import LABELS
 
 if TYPE_CHECKING:
     import xarray
 
-SHARDS = "shards"
 LABEL_COLUMNS = tuple(column for label in LABELS for column in label.columns)
 
 

@@ -5,14 +5,16 @@ from __future__ import annotations
 
 import os
 import tempfile
+from collections.abc import Iterable
 from pathlib import Path
 
 import datagen
 from datagen.errors import BadInput
 
 OUT = "--out"
-MANIFEST = "manifest.json"
-FAILURES = "failed.jsonl"
+# What the files of a corpus are called, and the folder of its shards.
+MANIFEST, INDEX, FAILURES, SCORED_RUNS = "manifest.json", "index.csv", "failed.jsonl", "scored_runs.jsonl"
+SHARDS = "shards"
 
 
 def from_home(path: str | Path) -> Path:
@@ -73,7 +75,7 @@ def no_file(path: Path) -> str:
 
 
 def require_file(path: Path, field: str = OUT) -> None:
-    """Raise BadInput if no file can be put at `path`; one that is there may be written over."""
+    """Raise BadInput if no file can be put at `path`; one that is there may be written over, but none of a corpus."""
     allowed = "a file in an existing folder that you may write into"
     try:
         problem = _against_file(path)
@@ -81,6 +83,20 @@ def require_file(path: Path, field: str = OUT) -> None:
         problem = error.strerror or str(error)
     if problem:
         raise BadInput(problem, field=field, value=str(path), allowed=allowed)
+    refuse_file_of_corpus(path, field)
+
+
+def refuse_file_of_corpus(path: Path, field: str, corpora: Iterable[Path] = ()) -> None:
+    """Raise BadInput if `path` is the place of one of the files that a corpus consists of: of one that is there, or of
+    one that may come to be in the folders `corpora`."""
+    place = Path(os.path.realpath(path))
+    in_shards = place.parent.name == SHARDS
+    folder = place.parent.parent if in_shards else place.parent
+    is_corpus = (folder / MANIFEST).is_file() or (folder / SHARDS).is_dir()
+    named = in_shards or place.name in (MANIFEST, INDEX, FAILURES, SCORED_RUNS)
+    if named and (is_corpus or folder in {Path(os.path.realpath(corpus)) for corpus in corpora}):
+        problem = "a corpus has a file of its own there, which would be lost"
+        raise BadInput(problem, field=field, value=str(path), allowed="a file of another name, or in another folder")
 
 
 def _against_file(path: Path) -> str:

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from datagen.corpus_files.format import data_hash
-from datagen.corpus_files.manifest import Manifest, manifest_path
+from datagen.corpus_files.manifest import Manifest, manifest_path, stated_records
 from datagen.corpus_files.shard import Sidecar
 from datagen.errors import BadInput
 
@@ -48,6 +48,8 @@ def differences(
     if not compare_sums:
         return
     summed = manifest.with_shards(folder, sidecars)
-    for name in SUMMED:
-        if getattr(summed, name) != getattr(manifest, name):
-            yield f"manifest.json: {name} disagrees with the sum over the shards' sidecars"
+    differing = [name for name in SUMMED if getattr(summed, name) != getattr(manifest, name)]
+    if stated_records(folder) != summed.records:
+        differing.append("records")
+    for name in differing:
+        yield f"manifest.json: {name} disagrees with the sum over the shards' sidecars"

@@ -9,15 +9,14 @@ from pathlib import Path
 from typing import Any
 
 from datagen.errors import BadInput
+from datagen.files.places import SCORED_RUNS
 from datagen.files.plain import plain
 from datagen.versions import program_versions
-
-NAME = "scored_runs.jsonl"
 
 
 def log_path(folder: Path) -> Path:
     """Where the runs that scored the corpus `folder` are listed."""
-    return folder / NAME
+    return folder / SCORED_RUNS
 
 
 def write_line(folder: Path, said: dict[str, Any]) -> None:

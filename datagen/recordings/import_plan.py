@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -98,10 +99,12 @@ class ImportPlan:
         """The records by shard: of one kind, in order, up to 64 MB together."""
         shards: list[list[PlannedRecord]] = []
         growing: dict[Key, list[PlannedRecord]] = {}
+        held: Counter[Key] = Counter()  # bytes of the growing shard of a kind
         for planned in self.records:
-            shard = growing.get(planned.key)
-            if shard is None or sum(held.bytes for held in shard) + planned.bytes > SHARD_BYTES:
-                shard = growing[planned.key] = []
-                shards.append(shard)
-            shard.append(planned)
+            key = planned.key
+            if key not in growing or held[key] + planned.bytes > SHARD_BYTES:
+                growing[key], held[key] = [], 0
+                shards.append(growing[key])
+            growing[key].append(planned)
+            held[key] += planned.bytes
         return shards

@@ -116,7 +116,7 @@ def _write(plan: ImportPlan, manifest: Manifest, listing: Listing, folder: Path,
             write_index(staging, finished_shards(staging))
             manifest = manifest.with_shards(staging, finished_shards(staging))
             write_manifest(staging, manifest)
-        for path in {*(request.path for request in listing.requests), *listing.tables}:
+        for path in {*(request.path for request in listing.requests), *listing.tables.values()}:
             require_unchanged(path)  # so that the hashes in the manifest are those of what was read
     return manifest
 
@@ -168,7 +168,7 @@ def _manifest(spec: Spec, listing: Listing, records: int) -> Manifest:
     content: dict[str, Any] = {
         "spec": spec.model_dump(mode="json"),
         "files": {request.name: source_hash(request.path) for request in listing.requests},
-        "tables": {path.name: source_hash(path) for path in listing.tables},
+        "tables": {name: source_hash(path) for name, path in listing.tables.items()},
     }
     return Manifest(
         name=spec.name,

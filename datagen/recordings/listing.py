@@ -33,10 +33,11 @@ class Request:
 
 @dataclass(frozen=True)
 class Listing:
-    """All requests of a SPEC in order, the tables they came from, and the listed files that were not there."""
+    """All requests of a SPEC in order, the tables they came from by their names in it, and the listed files that were
+    not there."""
 
     requests: tuple[Request, ...]
-    tables: tuple[Path, ...]
+    tables: dict[str, Path]
     absent: tuple[str, ...]
 
 
@@ -46,17 +47,17 @@ def list_requests(spec: Spec, root: Path) -> Listing:
         raise BadInput("no such folder", str(spec.source), "root", str(root), "the folder of the recordings")
     folder = Root(root)
     requests: list[Request] = []
-    tables: list[Path] = []
+    tables: dict[str, Path] = {}
     absent: list[str] = []
     for number, recording in enumerate(spec.recording, start=1):
         part = PartFiles(spec.source, recording, folder, f"{spec.source}: recording[{number}] ({recording.name})")
         found = part.find()
         requests += [request for path, row in found.files for request in _requests(spec, part, path, row)]
-        tables += found.tables
+        tables |= found.tables
         absent += found.absent
     if not requests:
         raise BadInput(f"none of its files is below {root}", str(spec.source), "root", str(root))
-    return Listing(tuple(requests), tuple(tables), tuple(absent))
+    return Listing(tuple(requests), tables, tuple(absent))
 
 
 def _requests(spec: Spec, part: PartFiles, path: Path, row: TableRow | None) -> Iterator[Request]:

@@ -17,10 +17,11 @@ from datagen.recordings.unchanged import require_unchanged
 
 
 class Found(NamedTuple):
-    """The files of a part, each with what a table says of it, that table, and the listed files that were not there."""
+    """The files of a part, each with what a table says of it, that table by its name in the SPEC, and the listed files
+    that were not there."""
 
     files: list[tuple[Path, TableRow | None]]
-    tables: list[Path]
+    tables: dict[str, Path]
     absent: list[str]
 
 
@@ -35,8 +36,9 @@ class PartFiles:
 
     def find(self) -> Found:
         """Its files; raises BadInput."""
-        tables = [] if self.recording.table is None else [self._table(self.recording.table)]
-        rows = [row for table in tables for row in read_label_table(table, self.recording.note_columns)]
+        name = self.recording.table
+        tables = {} if name is None else {name: self._table(name)}
+        rows = [row for table in tables.values() for row in read_label_table(table, self.recording.note_columns)]
         files, absent = self._globbed_files(rows) if self.recording.patterns else self._listed_files(rows)
         if self._refuses:
             self._refuse_idle_overrides([path for path, _ in files])

@@ -8,10 +8,10 @@ from pathlib import Path
 
 from datagen.corpus_files.format import Identity
 from datagen.corpus_files.manifest import DamagedManifest, Span, add_spans, manifest_path, read_manifest
-from datagen.corpus_files.shard import SHARDS, Sidecar, finished_shards, shards_folder
+from datagen.corpus_files.shard import Sidecar, finished_shards, shards_folder
 from datagen.errors import BadInput
 from datagen.files.atomic import LOCK, is_temporary
-from datagen.files.places import OUT, require_folder
+from datagen.files.places import OUT, SHARDS, require_folder
 
 BEGUN_WITH = {
     "recipe_hash": "another recipe or another version of this one",

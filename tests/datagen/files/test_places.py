@@ -69,6 +69,35 @@ def refused(tiny_recipe, tiny_corpus, monkeypatch):
     return refused
 
 
+@pytest.mark.parametrize("name", ["manifest.json", "index.csv", "failed.jsonl", "scored_runs.jsonl", "shards/x.json"])
+@pytest.mark.parametrize(
+    "command",
+    [("check", "CORPUS", "--json", "PLACE"), ("catalog", "--json", "PLACE"), ("schema", "--out", "PLACE")],
+    ids=lambda command: command[0],
+)
+def test_a_file_of_a_corpus_is_not_written_over(command, name, refused, copy, tmp_path):
+    before = {path: path.read_bytes() for path in copy.rglob("*") if path.is_file()}
+    link = tmp_path / "link"
+    link.symlink_to(copy)
+    for folder in (copy, link):
+        assert f'{folder / name}": a corpus has a file of its own there, which would be lost' in refused(
+            command, folder / name
+        )
+    assert {path: path.read_bytes() for path in copy.rglob("*") if path.is_file()} == before
+
+
+def test_results_are_not_written_to_where_the_corpus_they_tell_of_will_have_a_file(refused, tmp_path):
+    (tmp_path / "new").mkdir()
+    command = ("generate", "RECIPE", "--out", tmp_path / "new", "--json", "PLACE")
+    assert "--json" in refused(command, tmp_path / "new" / "manifest.json")
+    assert list((tmp_path / "new").iterdir()) == []
+
+
+def test_results_may_be_put_beside_the_files_of_a_corpus(copy):
+    assert run("info", copy, "--json", copy / "info.json").exit_code == 0
+    assert (copy / "info.json").is_file()
+
+
 @pytest.mark.parametrize("command", ["size", "paper", "chart", "classify"])
 def test_results_are_not_put_among_the_files_of_a_corpus(command, refused, copy):
     before = sorted(copy.rglob("*"))

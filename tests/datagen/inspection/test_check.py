@@ -217,6 +217,7 @@ def test_a_manifest_with_a_changed_recipe_is_found(copy: Path) -> None:
         ("name", "other", "name or recipe_records disagree with its recipe"),
         ("recipe_records", 99, "name or recipe_records disagree with its recipe"),
         ("asked", [], "the corpus holds records that it does not list as asked for"),
+        ("records", 5, "records disagrees with the sum over the shards' sidecars"),
         ("bytes", 5, "bytes disagrees with the sum over the shards' sidecars"),
         ("seconds", 1e9, "seconds disagrees with the sum over the shards' sidecars"),
         ("refused", {"machine: fill": {"count": 3, "example": "why"}}, "refused disagrees with the sum"),

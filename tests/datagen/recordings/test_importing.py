@@ -67,6 +67,16 @@ def test_counts_of_a_packed_file_come_back_in_m_s2_with_each_records_own_scale(b
     assert check_corpus(tmp_path / "corpus").problems == ()
 
 
+def test_tables_of_one_name_in_two_folders_are_both_told_of(bring: Bring, tmp_path: Path) -> None:
+    text = '[defaults]\nunit = "g"\nrate_hz = 12000\ny = "data"\n'
+    for name, samples in {"a": 400, "b": 401}.items():
+        (tmp_path / name).mkdir()
+        np.save(tmp_path / name / f"{name}.npy", noise(samples))
+        (tmp_path / name / "t.csv").write_text(f"file,location\n{name}/{name}.npy,inner\n")
+        text += f'[[recording]]\nname = "{name}"\ntable = "{name}/t.csv"\n'
+    assert set(bring(text).manifest.recipe["tables"]) == {"a/t.csv", "b/t.csv"}
+
+
 @pytest.mark.parametrize("quote", ["", '"'])
 @pytest.mark.parametrize(("sign", "encoding"), [(";", "utf-8-sig"), ("\t", "utf-8")])
 def test_a_label_table_with_decimal_commas_says_the_same(
@@ -331,7 +341,7 @@ def test_a_folder_that_cannot_be_replaced_is_refused_before_anything_is_read(
     if cause == "mounted":
         monkeypatch.setattr(Path, "is_mount", lambda path: path == out)
     else:
-        monkeypatch.setattr(places, "_writable", lambda folder: folder != parent)
+        monkeypatch.setattr(places, "is_writable", lambda folder: folder != parent)
     (tmp_path / "spec.toml").write_text(
         'name = "set"\n[[recording]]\nname = "all"\nfiles = "absent.mat"\ny = "sig"\nunit = "g"\n'
     )

@@ -11,13 +11,15 @@ from datagen.benchmark.results import Results
 from datagen.benchmark.run_learning import learn
 from datagen.benchmark.run_scoring import score_corpus
 from datagen.benchmark.trained import Trained, is_saved, load_trained, save_trained
-from datagen.benchmark.training_source import source_of
+from datagen.benchmark.training_source import passed_over, source_of
 from datagen.progress import SILENT, Listener
 
 
 def run(benchmark: Benchmark, listener: Listener = SILENT) -> Results:
     """What the models say and score on every corpus; raises BadInput."""
     began = time.monotonic()
+    if sentence := passed_over(benchmark.train):
+        listener.say(sentence)
     source = load_trained(benchmark.train) if is_saved(benchmark.train) else source_of(benchmark)
     # Before anything is learned, which takes long: a corpus of which no record may be scored is refused at once.
     chosen = [chosen_records(folder, source.machines) for folder in benchmark.tests]

@@ -44,7 +44,7 @@ class Train:
 
 
 @dataclass(frozen=True)
-class _Streams:
+class Streams:
     """Random numbers of a record: every purpose has a stream of its own, so that what is left out changes no other."""
 
     seed: int
@@ -66,7 +66,7 @@ class _Streams:
 
 def draw_train(seed: int, machine: int, record: int, ingredients: Ingredients) -> Train:
     """The record with that number of a virtual machine; the same numbers always give the same record."""
-    streams = _Streams(seed, machine, record)
+    streams = Streams(seed, machine, record)
     of_machine, of_record = streams.of_machine, streams.of_record
     rate, duration = 25_600.0, float(of_record("duration").choice(DURATIONS, p=SHARES))
     kinematics = _bearing(of_machine("bearing"), of_record("bearing"))
@@ -77,10 +77,9 @@ def draw_train(seed: int, machine: int, record: int, ingredients: Ingredients) -
     size = int(rate * duration)
     signal = floor * of_record("noise").standard_normal(size)
     if ingredients.backgrounds:
-        signal += _background(of_machine("background"), of_record("background"), size, rate, kinematics)
+        signal += _background(streams, size, rate, kinematics)
     if location != "none":
-        modulated = ingredients.shaft_modulation
-        force = impulses(of_machine("impulses"), of_record("impulses"), size, rate, kinematics, location, modulated)
+        force = impulses(streams, size, rate, kinematics, location, ingredients.shaft_modulation)
         signal += fftconvolve(force, _ringing(paths, rate))[:size]
     return Train(signal, rate, kinematics, location, machine)
 
@@ -120,45 +119,51 @@ def _ringing(paths: list[tuple[float, float, float]], rate: float) -> Array:
     return np.asarray(total)
 
 
-def impulses(
-    of_machine: np.random.Generator,
-    of_record: np.random.Generator,
-    size: int,
-    rate: float,
-    kinematics: Kinematics,
-    location: str,
-    modulated: bool,
-) -> Array:
-    """Impulses (size,) at which balls hit a defect on the race `location`, with random slip and jitter of their times.
+def impulses(streams: Streams, size: int, rate: float, kinematics: Kinematics, location: str, modulated: bool) -> Array:
+    """Impulses (size,) of balls that hit a defect on the race `location`, at a `rate` (Hz).
 
-    Their heights are random too. On an inner race they follow its load; on an outer one they vary with the turn of the
-    shaft if `modulated`. `of_machine` draws what belongs to the machine, `of_record` what belongs to the record.
+    Times and heights are random. On an inner race the heights follow its load; on an outer one they vary with the turn
+    of the shaft if `modulated`.
     """
+    own = streams.of_record("impulses")
+    times = _pass_times(own, kinematics, location, size / rate)
+    turn = 2.0 * np.pi * kinematics.shaft_hz * times + own.uniform(0.0, 2.0 * np.pi)
+    heights = _heights(streams.of_machine("impulses"), own, turn, location, modulated)
+    force = np.zeros(size)
+    inside = (times >= 0.0) & (times * rate < size - 1)
+    np.add.at(force, (times[inside] * rate).astype(np.int64), heights[inside])
+    return force
+
+
+def _pass_times(of_record: np.random.Generator, kinematics: Kinematics, location: str, duration: float) -> Array:
+    """Times (s) at which balls hit a defect, with random slip and jitter: those of a `duration` (s), and some around
+    it."""
     slip = of_record.uniform(0.0, 0.02)
     cage = kinematics.ftf * (1.0 - slip)
     order = kinematics.balls * (cage if location == "outer" else 1.0 - cage)
     period = 1.0 / (order * kinematics.shaft_hz)
-    count = int(size / rate / period) + 2
+    count = int(duration / period) + 2
     jitter = of_record.uniform(0.002, 0.02)
-    times = np.cumsum(period * (1.0 + jitter * of_record.standard_normal(count))) - period * of_record.uniform()
-    turn = 2.0 * np.pi * kinematics.shaft_hz * times + of_record.uniform(0.0, 2.0 * np.pi)
+    steps = period * (1.0 + jitter * of_record.standard_normal(count))
+    return np.asarray(np.cumsum(steps) - period * of_record.uniform())
+
+
+def _heights(
+    of_machine: np.random.Generator, of_record: np.random.Generator, turn: Array, location: str, modulated: bool
+) -> Array:
+    """Heights of impulses at such angles (rad) of the shaft's `turn`."""
     if location == "inner":
         load = np.maximum(np.cos(turn) + of_machine.uniform(-0.2, 0.8), 0.05)
     else:
-        depth = of_record.uniform(0.0, 0.6)  # drawn for all, so that the heights below are the same either way
+        depth = of_record.uniform(0.0, 0.6)  # drawn for all, so that what is drawn below is the same either way
         load = 1.0 + (depth if modulated else 0.0) * np.cos(turn)
     height = np.exp(of_record.uniform(np.log(0.3), np.log(20.0))) * load
-    height = height * np.exp(0.2 * of_record.standard_normal(count))
-    force = np.zeros(size)
-    inside = (times >= 0.0) & (times * rate < size - 1)
-    np.add.at(force, (times[inside] * rate).astype(np.int64), height[inside])
-    return force
+    return np.asarray(height * np.exp(0.2 * of_record.standard_normal(turn.size)))
 
 
-def _background(
-    of_machine: np.random.Generator, of_record: np.random.Generator, size: int, rate: float, kinematics: Kinematics
-) -> Array:
+def _background(streams: Streams, size: int, rate: float, kinematics: Kinematics) -> Array:
     """Shaft and mains tones, a gear mesh with sidebands, and random knocks; levels are the machine's."""
+    of_machine, of_record = streams.of_machine("background"), streams.of_record("background")
     time = np.arange(size) / rate
     total = np.zeros(size)
     for frequency, amplitude in tones(of_machine, kinematics.shaft_hz):

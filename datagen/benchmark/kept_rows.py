@@ -9,6 +9,7 @@ writes them anew from a whole corpus of that recipe: of the records outside its 
 from __future__ import annotations
 
 import argparse
+import io
 import sys
 from collections.abc import Sequence
 from functools import cached_property
@@ -24,6 +25,8 @@ from datagen.benchmark.training import FEWEST_BEARINGS, TrainingSet, training_re
 from datagen.corpus import Corpus
 from datagen.counts import counted
 from datagen.errors import BadInput
+from datagen.exits import BAD_INPUT, print_error
+from datagen.files.atomic import write_file
 from datagen.progress import Listener
 from labels.classifier.classes import CLASSES
 from labels.features.table import FEATURE_NAMES
@@ -76,8 +79,9 @@ def keep(folder: Path, file: Path = KEPT_FILE) -> int:
     training = training_set(folder, labels, training_reading_of(Learning()), WORKERS)
     bearings, first = np.unique(corpus.labels["bearing_id"].to_numpy(np.str_), return_index=True)
     rows = training.rows
+    packed = io.BytesIO()
     np.savez_compressed(
-        file,
+        packed,
         features=np.array(FEATURE_NAMES),
         table=rows.table.astype(np.float32),  # half the size; nothing that is said of the scored records changes
         record=rows.record.astype(np.int32),
@@ -90,6 +94,7 @@ def keep(folder: Path, file: Path = KEPT_FILE) -> int:
         recipe=np.array(corpus.manifest.identity.recipe_hash),
         physics=np.array(corpus.manifest.identity.model_hash),
     )
+    write_file(file, packed.getvalue(), option="")
     return len(labels)
 
 
@@ -114,8 +119,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         _require_whole_transfer(folder)
         kept = keep(folder)
     except BadInput as problem:
-        print(problem, file=sys.stderr)
-        return 2
+        print_error(problem)
+        return BAD_INPUT
     print(f"kept the rows of {counted(kept, 'record')} in {KEPT_FILE.name}, {KEPT_FILE.stat().st_size / 1e6:.1f} MB")
     return 0
 

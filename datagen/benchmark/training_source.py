@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
+from pathlib import Path
 from typing import Protocol
 
 import numpy as np
@@ -63,6 +64,14 @@ class CorpusRecords:
     def windows(self, listener: Listener) -> TrainingSet:
         """Raw windows of these records."""
         return labelled(self._benchmark.windows(self._benchmark.train, self._labels, listener), self._labels)
+
+
+def passed_over(train: Path) -> str:
+    """In a sentence, that `--train` names something built in and not the folder of that name; "" if there is none."""
+    built_in = is_kept(train) or ingredients_of(train) is not None
+    if not built_in or not train.is_dir():
+        return ""
+    return f'"{train}" is what comes with the program; the folder of that name is --train "{train.absolute()}"'
 
 
 def source_of(benchmark: Benchmark) -> TrainingSource:

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from datagen.benchmark.impulse_signal import Ingredients, draw_train, impulses, tones
+from datagen.benchmark.impulse_signal import Ingredients, Streams, draw_train, impulses, tones
 from datagen.benchmark.impulse_training import ingredients_of
 from datagen.errors import BadInput
 from labels.features.kinematics import Kinematics
@@ -62,8 +62,7 @@ def test_impulses_without_modulation_are_those_with_it_divided_by_their_load():
     bearing = Kinematics(9, 0.2, 2.4, 25.0)
 
     def force(modulated):
-        own, generator = np.random.default_rng(1), np.random.default_rng(2)
-        return impulses(own, generator, 25_600, 25_600.0, bearing, "outer", modulated)
+        return impulses(Streams(SEED, 1, OUTER), 25_600, 25_600.0, bearing, "outer", modulated)
 
     plain, loaded = force(False), force(True)
     struck = plain > 0.0
@@ -87,9 +86,8 @@ def test_impulses_come_at_the_ball_pass_order_of_their_race(location, fewest, mo
     # Nine balls, a diameter ratio of 0.2: the cage turns at 0.5 (1 − 0.2) = 0.4 of the shaft less a slip of up to 2 %,
     # so 3.528 to 3.6 balls pass the outer race in a turn of the shaft, and what is left of nine the inner one.
     bearing, turns = Kinematics(9, 0.2, 2.4, 25.0), 20 * 25
-    for seed in range(5):
-        own, generator = np.random.default_rng(seed), np.random.default_rng(seed + 100)
-        force = impulses(own, generator, 20 * 25_600, 25_600.0, bearing, location, True)
+    for machine in range(5):
+        force = impulses(Streams(SEED, machine, OUTER), 20 * 25_600, 25_600.0, bearing, location, True)
         # Jitter of 2 % a period adds up to one impulse more or less in 3000; one more is lost at either end.
         assert fewest * turns - 4 <= np.count_nonzero(force) <= most * turns + 4
 

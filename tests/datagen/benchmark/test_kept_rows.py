@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from command_line import run
@@ -10,10 +12,10 @@ from datagen.benchmark import kept_rows
 from datagen.benchmark.corpus_rows import read_rows
 from datagen.benchmark.kept_rows import KeptRows, keep, main
 from datagen.benchmark.machines import learned_machines
-from datagen.benchmark.options import Learning, Options
+from datagen.benchmark.options import TRANSFER_ROWS, Learning, Options
 from datagen.benchmark.plan import Benchmark, training_reading_of
 from datagen.benchmark.training import labelled
-from datagen.benchmark.training_source import CorpusRecords
+from datagen.benchmark.training_source import CorpusRecords, passed_over
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
 from datagen.progress import SILENT
@@ -116,6 +118,24 @@ def test_classify_learns_from_them_where_nothing_else_is_named(other_corpus, tmp
     assert run("classify", "--train", saved, "--test", other_corpus).exit_code == 0
 
 
+def test_a_folder_of_their_name_is_said_to_be_passed_over(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for name in (TRANSFER_ROWS, "impulse-trains"):
+        assert passed_over(Path(name)) == ""
+        Path(name).mkdir()
+        assert passed_over(Path(name)).endswith(f'the folder of that name is --train "{tmp_path / name}"')
+        assert passed_over(tmp_path / name) == ""
+    assert passed_over(tmp_path) == ""
+
+
+def test_classify_says_that_it_does_not_learn_from_a_folder_of_their_name(other_corpus, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path(TRANSFER_ROWS).mkdir()
+    done = run("classify", "--learner", "logistic", "--first", "40", "--test", other_corpus)
+    assert done.exit_code == 0, done.output
+    assert '"transfer-rows" is what comes with the program' in " ".join(done.output.split())
+
+
 def test_no_record_is_scored_of_a_machine_that_they_hold(beginning):
     done = run("classify", "--learner", "logistic", "--test", beginning)
     assert done.exit_code == 2
@@ -146,7 +166,7 @@ def test_rows_of_other_features_are_refused(monkeypatch):
 def test_a_corpus_of_another_recipe_or_a_part_of_transfer_leaves_the_file_as_it_is(tiny_corpus, beginning, capsys):
     before = kept_rows.KEPT_FILE.read_bytes()
     assert main([str(tiny_corpus)]) == 2
-    assert "no corpus of the recipe transfer" in capsys.readouterr().err
+    assert capsys.readouterr().err == f"error: {tiny_corpus}: this is no corpus of the recipe transfer as it is now\n"
     assert main([str(beginning)]) == 2
     assert "4 of 1920 records" in capsys.readouterr().err
     assert kept_rows.KEPT_FILE.read_bytes() == before

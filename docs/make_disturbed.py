@@ -73,7 +73,7 @@ def misstated(signal: Signal, rate: float, _: np.random.Generator, by: float, no
 
 
 def clipped(signal: Signal, rate: float, _: np.random.Generator, at: float) -> Recorded:
-    """The record cut off at so many times its RMS."""
+    """The record cut off, on either side of 0, at so many times the RMS about its mean."""
     level = at * signal.std(axis=0)
     return Recorded(np.clip(signal, -level, level), rate)
 

@@ -18,6 +18,7 @@ from datagen.benchmark.training import FEWEST_BEARINGS, TrainingSet
 from datagen.errors import BadInput
 from datagen.processes import processes
 from datagen.progress import Count, Listener
+from labels.classifier.classes import joint_class
 from labels.schema import HEALTHY, LOCATIONS
 
 NAME = "impulse-trains"
@@ -89,6 +90,6 @@ def _machine(machine: int, ingredients: Ingredients, reading: Reading) -> Traini
         drawn = draw_train(SEED, machine, record, ingredients)
         found = signal_rows(drawn.signal, drawn.rate, drawn.kinematics, reading, [SEED, machine, record])
         parts.append(feature_rows(found, machine * len(LOCATIONS) + record))
-        classes += [HEALTHY if location == "none" else f"line {location}"] * len(found)
+        classes += [joint_class(HEALTHY if location == "none" else "line", location)] * len(found)
     rows = joined(parts)
     return TrainingSet(rows, np.array(classes), np.full(len(rows), f"machine_{machine:04}"))

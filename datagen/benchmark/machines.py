@@ -10,11 +10,10 @@ from numpy.typing import NDArray
 
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
+from datagen.judging.splits import TEST
 
 if TYPE_CHECKING:
     import pandas
-
-TEST = "test"
 
 
 @dataclass(frozen=True)

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
 from datagen.benchmark.verdicts import Tested, Verdicts
+from datagen.files.text_tables import csv_text
 from labels.classifier.classes import condition_probability, location_probability
 from labels.schema import CONDITIONS, LOCATIONS
 
@@ -114,12 +113,11 @@ def prediction_table(models: Sequence[str], corpora: Iterable[tuple[str, Sequenc
 
     It has one row a record: what is known of it, and the answers of the `models`; probabilities are left to the JSON.
     """
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(["corpus", *FACTS, *(f"{model}_{what}" for model in models for what in SAID)])
+    columns = ["corpus", *FACTS, *(f"{model}_{what}" for model in models for what in SAID)]
+    rows = []
     for corpus, predictions in corpora:
         for prediction in predictions:
             said = [getattr(prediction.models[model], what) for model in models for what in SAID]
             numbers = [f"{value:.6g}" if isinstance(value, float) else value for value in said]
-            writer.writerow([corpus, *prediction.facts.values(), *numbers])
-    return text.getvalue()
+            rows.append([corpus, *prediction.facts.values(), *numbers])
+    return csv_text(columns, rows)

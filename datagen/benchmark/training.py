@@ -16,6 +16,7 @@ from datagen.benchmark.reading_policy import Reading
 from datagen.benchmark.rows import Rows
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
+from datagen.judging.splits import TEST
 from datagen.judging.truth import true_classes
 from datagen.judging.user_code import user_code
 from datagen.progress import Count, Say, ignore
@@ -105,7 +106,7 @@ def training_records(folder: Path, also_tested: bool, first: int | None = None) 
     labels = Corpus(folder).labels
     chosen = labels[np.isin(true_classes(labels), CLASSES)]
     if also_tested:
-        chosen = chosen[chosen["split"] != "test"]
+        chosen = chosen[chosen["split"] != TEST]
     chosen = chosen.iloc[:first]
     if chosen["bearing_id"].nunique() < FEWEST_BEARINGS:
         allowed = f"a corpus with {FEWEST_BEARINGS} virtual bearings or more outside its split test"

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from datagen.cards.facts import Facts, Kind, Solved
 from datagen.corpus_files.format import IMPORTED
 from datagen.counts import bytes_text, digits
+from datagen.files.text_tables import markdown_table
 from labels.schema import LABEL, LABELS, UNKNOWN
 
 NOT_STATED = "not stated"
@@ -167,13 +168,5 @@ def _terms(facts: Facts) -> Iterable[str]:
 
 
 def _table(heads: Sequence[str], rows: Iterable[Sequence[object]]) -> Iterable[str]:
-    yield "| " + " | ".join(heads) + " |"
-    yield "|" + "---|" * len(heads)
-    for row in rows:
-        yield "| " + " | ".join(map(_cell, row)) + " |"
+    yield markdown_table(heads, rows)
     yield ""
-
-
-def _cell(value: object) -> str:
-    """A value in one line, as a row of a table is: a citation may have several."""
-    return " ".join(str(value).split()).replace("|", "\\|")

@@ -87,7 +87,7 @@ def corpus_facts(folder: Path) -> Facts:
 
 
 def _stated(manifest: Manifest, name: str) -> object:
-    return (manifest.recipe["spec"] if manifest.imported else manifest.recipe).get(name) or ""
+    return manifest.written.get(name) or ""
 
 
 def _kinds(table: pandas.DataFrame) -> list[Kind]:

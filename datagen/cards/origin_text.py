@@ -15,9 +15,9 @@ def origin_text(manifest: Manifest) -> str:
     from datagen.recipes.recipe import parse_recipe
     from datagen.recordings.spec import parse_spec
 
-    stored = manifest.recipe["spec"] if manifest.imported else manifest.recipe
+    parse = parse_spec if manifest.imported else parse_recipe
     try:
-        read = parse_spec(stored, Path(MANIFEST)) if manifest.imported else parse_recipe(stored, Path(MANIFEST))
+        read = parse(manifest.written, Path(MANIFEST))
     except BadInput:
-        return toml_text(stored)  # made by a version with other settings: shown as it is stored
+        return toml_text(manifest.written)  # made by a version with other settings: shown as it is stored
     return toml_text(read.model_dump(mode="json", exclude_defaults=True))

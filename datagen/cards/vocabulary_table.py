@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from typing import Any
 
 from datagen.corpus import Corpus
+from datagen.files.text_tables import csv_text
 from labels.vocabulary import common_row
 
 ONLY_GROUP = 0  # a file of that package has several groups of rows, a shard one
@@ -25,8 +24,4 @@ def vocabulary_table(corpus: Corpus) -> str:
         rows += [common_row(labels, axis) | place for axis in corpus.axes(labels["record"])]
     known = [name for name in (rows[0] if rows else ()) if all(row[name] == row[name] for row in rows)]
     columns = [name for name in known if name != "load_unit" or "load" in known]
-    text = io.StringIO()
-    table = csv.DictWriter(text, columns, extrasaction="ignore", lineterminator="\n")
-    table.writeheader()
-    table.writerows(rows)
-    return text.getvalue()
+    return csv_text(columns, ([row[name] for name in columns] for row in rows))

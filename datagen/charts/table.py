@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import csv
-import io
+from collections.abc import Iterator
 
 from datagen.charts.measure import Chart
+from datagen.files.text_tables import csv_text
 
 COLUMNS = (
     "group",
@@ -27,9 +27,10 @@ COLUMNS = (
 
 def chart_table(chart: Chart) -> str:
     """CSV of all runs, one row each; empty where a number does not apply."""
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(COLUMNS)
+    return csv_text(COLUMNS, _rows(chart))
+
+
+def _rows(chart: Chart) -> Iterator[list[object]]:
     for run in chart.runs:
         score = run.score
         errors: list[object] = [""] * 7
@@ -37,8 +38,7 @@ def chart_table(chart: Chart) -> str:
             numbers = (score.acceleration, score.envelope_db, score.release_us, score.regain_us, score.worst_event_us)
             errors = [_short(number) for number in (*numbers, float(score.events_missed), score.stiffness)]
         timing = [_short(number) for number in (run.duration, run.seconds, run.real_time)]
-        writer.writerow([run.group, run.name, run.setting, *timing, *errors, run.failure])
-    return text.getvalue()
+        yield [run.group, run.name, run.setting, *timing, *errors, run.failure]
 
 
 def _short(number: float) -> str:

@@ -56,12 +56,12 @@ def features(
     """
     from datagen.benchmark.feature_table import feature_table, rejections
     from datagen.files.atomic import write_file
-    from datagen.files.places import require_table
+    from datagen.files.places import OUT, require_table
 
     require_table(out)
     with show_steps() as listener:
         table = feature_table(folder, split, bandwidth, as_learned, workers, listener)
-    write_file(out, table.to_csv(index=False, lineterminator="\n").encode(), "--out")
+    write_file(out, table.to_csv(index=False, lineterminator="\n").encode(), OUT)
     facts = {**_counts(table), "rejected": rejections(table), "columns": list(table.columns), "table": str(out)}
     write_json(json_file, facts)
     for reason, count in facts["rejected"].items():

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from datagen.commands.program import JsonFile, command, write_json
-from datagen.files.places import require_file
+from datagen.files.places import OUT, require_file
 
 
 @command("spallgen schema --out recipe.schema.json")
@@ -28,5 +28,5 @@ def schema(
     if out is None:
         print(schema_text(), end="")
         return
-    write_file(out, schema_text().encode(), "--out")
+    write_file(out, schema_text().encode(), OUT)
     print(f"the schema of recipes is in {out}")

@@ -71,8 +71,13 @@ class Manifest:
     @property
     def title(self) -> str:
         """One line for people, "" if there is none."""
-        said = self.recipe["spec"] if self.imported else self.recipe
-        return str(said.get("title") or "")
+        return str(self.written.get("title") or "")
+
+    @property
+    def written(self) -> dict[str, Any]:
+        """What somebody wrote to have it made: the recipe, or the SPEC of recordings without their files."""
+        written: dict[str, Any] = self.recipe["spec"] if self.imported else self.recipe
+        return written
 
     @property
     def records(self) -> int:

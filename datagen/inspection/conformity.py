@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
@@ -112,8 +113,8 @@ def _wrong_tables(dataset: xarray.Dataset) -> Iterator[str]:
     for sentence, broken in rules.items():
         if broken.any():
             yield f"{sentence} (row {int(np.flatnonzero(broken)[0])} of the pass table)"
-    counts = [(dataset["defect_record"].values == index).sum() for index in record]
-    if not np.array_equal(counts, dataset["spalls"].values):
+    counts = Counter(dataset["defect_record"].values.tolist())
+    if [counts[index] for index in record.tolist()] != dataset["spalls"].values.tolist():
         yield "the defect table and the label spalls disagree"
 
 

@@ -44,8 +44,9 @@ class Info:
     a second; `record_seconds` what a record cost one worker, `record_bytes` what it takes on the disk. `crossed` counts
     records by two labels at once, `bearings_in_split` the known `bearings`, virtual ones where records are simulated;
     `of_unknown_bearing` records are of one that is not known. `outside_validity` records are to be read with care, and
-    `validity` counts them by reason. `asked_by_condition` what the weights of the
-    recipe give of the records asked for; `refused` are the impossible draws.
+    `validity` counts them by reason. `asked_by_condition` is how many of the records asked for have a condition on
+    average, by the weights of the recipe; `refused` are the impossible draws.
+
     `missing_files` says how many records each shard held that is gone, `damaged_files` each that is cut off,
     overwritten or not to be read; all else is counted as if they were there. `origin` is simulated or imported: of
     recordings nothing was asked for, drawn or solved.

@@ -2,7 +2,7 @@
 
 - `known`: which labels of a record they may be told; `stated_speed`: how wrong the speed among these may be
 - `truth`: what a record really is, for training and scoring
-- `splits`: the split that is asked for
+- `splits`: the split that is asked for, and the one that is left to score
 - `user_code`: estimators that users bring
 - `scored_runs`: the log of every run that scores recordings
 """

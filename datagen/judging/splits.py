@@ -9,6 +9,8 @@ from datagen.errors import BadInput
 from labels.schema import SPLITS
 
 ALL = "all"
+# The split that is left to score.
+TEST = "test"
 
 
 def require_split(folder: Path, present: Iterable[str], asked: str) -> None:

@@ -11,10 +11,10 @@ from typing import Any
 from datagen.drawing.style import png_of
 from datagen.errors import BadInput
 from datagen.files.atomic import write_results
-from datagen.files.places import require_results_folder
 from datagen.files.plain import plain_json
+from datagen.files.results import results_folder
 from datagen.paper.chapter import Chapter
-from datagen.paper.tables import csv_text, page
+from datagen.paper.tables import chapter_csv, page
 from datagen.progress import Say, ignore
 
 CHAPTERS = {
@@ -50,14 +50,13 @@ def write_book(out: Path, keys: Sequence[str], say: Say = ignore) -> dict[str, A
     each chapter that is written. Raises BadInput if the folder cannot be made or written into, before anything is
     computed, and where it is full.
     """
-    require_results_folder(out)
-    write_results(out, {})
+    results_folder(out)
     chapters = []
     for key in keys:
         chapter: Chapter = import_module(f"datagen.paper.{CHAPTERS[key]}").chapter()
         # Without the name of the program that wrote it, a picture that did not change is the same file.
         picture = png_of(chapter.draw, DPI, metadata={"Software": None})
-        table = csv_text(chapter.rows).encode()
+        table = chapter_csv(chapter.rows).encode()
         write_results(out, {f"{chapter.name}.png": picture, f"{chapter.name}.csv": table})
         chapters.append(chapter)
         say(chapter.title)

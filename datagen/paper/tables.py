@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import csv
-import io
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
+from datagen.files.text_tables import csv_text, markdown_table
 from datagen.paper.chapter import Chapter, Row
 
 COLUMNS = ("quantity", "paper", "ours", "difference", "unit", "agrees", "comment", "where")
 BOUNDS = {"at most": "≤ ", "at least": "≥ ", "equal": ""}
-VERDICTS = {True: "yes", False: "**no**", None: ""}
+PLAIN_VERDICTS = {True: "true", False: "false", None: ""}
+MARKED_VERDICTS = {True: "yes", False: "**no**", None: ""}
 INTRODUCTION = """# The paper's figures, simulated
 
 Counterparts of Figures 5 to 11 of D. Petersen, C. Howard, N. Sawalhi, A. Moazen Ahmadi, S. Singh, "Analysis of bearing
@@ -26,19 +26,15 @@ curves themselves were not digitised, so where it prints none, the end of an axi
 """
 
 
-def csv_text(rows: Sequence[Row]) -> str:
-    """The table as CSV with a heading; empty where there is no number."""
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(COLUMNS)
-    for row in rows:
-        writer.writerow([row.quantity, _said(row), f"{row.ours:.6g}", _difference(row), *_rest(row)])
-    return text.getvalue()
+def chapter_csv(rows: Sequence[Row]) -> str:
+    """The table of a chapter as CSV with a heading; empty where there is no number."""
+    return csv_text(COLUMNS, (_cells(row, digits=6, verdicts=PLAIN_VERDICTS) for row in rows))
 
 
-def _rest(row: Row) -> list[str]:
-    verdict = "" if row.agrees is None else str(row.agrees).lower()
-    return [row.unit, verdict, row.comment, row.where]
+def _cells(row: Row, digits: int, verdicts: Mapping[bool | None, str]) -> tuple[str, ...]:
+    """What the COLUMNS say of a row."""
+    ours, verdict = f"{row.ours:.{digits}g}", verdicts[row.agrees]
+    return (row.quantity, _said(row), ours, _difference(row), row.unit, verdict, row.comment, row.where)
 
 
 def _said(row: Row) -> str:
@@ -61,26 +57,9 @@ def summary(chapters: Sequence[Chapter]) -> list[tuple[str, int, int]]:
 
 def page(chapters: Sequence[Chapter]) -> str:
     """The page in Markdown: a summary, then every figure with its table."""
-    parts = [INTRODUCTION, "| figure | agree | compared |\n|---|---|---|"]
-    parts[-1] += "".join(f"\n| {title} | {agree} | {compared} |" for title, agree, compared in summary(chapters))
+    parts = [INTRODUCTION, markdown_table(("figure", "agree", "compared"), summary(chapters))]
     for chapter in chapters:
         parts.append(f"## {chapter.title}\n\n{chapter.text}\n\n![{chapter.title}]({chapter.name}.png)")
-        parts.append(_markdown(chapter.rows))
+        rows = (_cells(row, digits=4, verdicts=MARKED_VERDICTS) for row in chapter.rows)
+        parts.append(markdown_table(COLUMNS, rows))
     return "\n\n".join(parts) + "\n"
-
-
-def _markdown(rows: Sequence[Row]) -> str:
-    lines = ["| " + " | ".join(COLUMNS) + " |", "|" + "---|" * len(COLUMNS)]
-    for row in rows:
-        cells = (
-            row.quantity,
-            _said(row),
-            f"{row.ours:.4g}",
-            _difference(row),
-            row.unit,
-            VERDICTS[row.agrees],
-            row.comment,
-            row.where,
-        )
-        lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
-    return "\n".join(lines)

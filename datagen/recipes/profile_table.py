@@ -7,11 +7,10 @@ from itertools import pairwise
 from pathlib import Path
 
 from pydantic import Field, ValidationInfo, model_validator
-from pydantic_core import PydanticCustomError
 
 from datagen.errors import BadInput
 from datagen.files.csv_rows import read_csv_rows
-from datagen.settings.table import Table
+from datagen.settings.table import Table, refuse
 
 COLUMNS = ("angle_deg", "depth_um")
 FOLDER = "folder"
@@ -36,18 +35,18 @@ class ProfileTable(Table):
     @model_validator(mode="after")
     def _is_a_surface(self) -> ProfileTable:
         if len(self.angle_deg) != len(self.depth_um) or len(self.angle_deg) < 2:
-            raise _refused("angle_deg and depth_um must hold equally many numbers, at least two")
+            raise refuse("angle_deg and depth_um must hold equally many numbers, at least two")
         if not all(math.isfinite(value) for value in (*self.angle_deg, *self.depth_um)):
-            raise _refused("angle_deg and depth_um must be finite")
+            raise refuse("angle_deg and depth_um must be finite")
         if any(after <= before for before, after in pairwise(self.angle_deg)):
-            raise _refused("angle_deg must rise")
+            raise refuse("angle_deg must rise")
         for depth in self.depth_um:
             if not 0.0 <= depth <= DEEPEST_UM:
-                raise _refused(_wrong_depth(depth))
+                raise refuse(_wrong_depth(depth))
         if max(self.depth_um) == 0.0:
-            raise _refused("depth_um is 0 throughout: this is no spall")
+            raise refuse("depth_um is 0 throughout: this is no spall")
         if self.extent_deg > 180.0:
-            raise _refused(f"the table covers {self.extent_deg:g} degrees; allowed: at most 180")
+            raise refuse(f"the table covers {self.extent_deg:g} degrees; allowed: at most 180")
         return self
 
     @property
@@ -70,11 +69,11 @@ def read_table(path: Path) -> dict[str, tuple[float, ...]]:
     try:
         rows = read_csv_rows(path)
     except OSError as error:
-        raise _refused(f"{path} cannot be read ({error.strerror})") from None
+        raise refuse(f"{path} cannot be read ({error.strerror})") from None
     except BadInput as problem:
-        raise _refused(str(problem)) from None
+        raise refuse(str(problem)) from None
     if not rows or tuple(cell.strip() for cell in rows[0][1]) != COLUMNS:
-        raise _refused(f"{path}: the first line must be {','.join(COLUMNS)}")
+        raise refuse(f"{path}: the first line must be {','.join(COLUMNS)}")
     numbers = [_numbers(path, line, row) for line, row in rows[1:]]
     return {"angle_deg": tuple(angle for angle, _ in numbers), "depth_um": tuple(depth for _, depth in numbers)}
 
@@ -83,15 +82,11 @@ def _numbers(path: Path, line: int, row: list[str]) -> tuple[float, float]:
     try:
         angle, depth = (float(cell) for cell in row)
     except ValueError:
-        raise _refused(f"{path}, line {line}: {','.join(row)} is not two numbers") from None
+        raise refuse(f"{path}, line {line}: {','.join(row)} is not two numbers") from None
     if depth < 0.0 or depth > DEEPEST_UM:
-        raise _refused(f"{path}, line {line}: {_wrong_depth(depth)}")
+        raise refuse(f"{path}, line {line}: {_wrong_depth(depth)}")
     return angle, depth
 
 
 def _wrong_depth(depth: float) -> str:
     return f"depth_um = {depth:g}; allowed: 0 to {DEEPEST_UM:g}"
-
-
-def _refused(problem: str) -> PydanticCustomError:
-    return PydanticCustomError("table", "{problem}", {"problem": problem})

@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, ValidationError, ValidationInfo, model_validator
 from pydantic.json_schema import SkipJsonSchema
-from pydantic_core import PydanticCustomError
 
 from datagen.distributions.kinds import Distribution, Fixed
 from datagen.errors import BadInput
@@ -18,7 +17,7 @@ from datagen.files.digest import file_hash
 from datagen.formats.csv_layout import CsvLayout
 from datagen.recipes.profile_table import FOLDER
 from datagen.recipes.recording_file import read_background
-from datagen.settings.table import Between, Table
+from datagen.settings.table import Between, Table, refuse
 
 Channel = Annotated[str, Field(min_length=1)]
 LEARNT = ("sha256", "samples", "rate_hz")
@@ -85,15 +84,15 @@ def _learnt(value: dict[str, Any], path: Path) -> dict[str, Any]:
         return value
     except BadInput as problem:
         field = problem.field if problem.field in ("channels", "file") else "file"
-        raise _refused(f"{path.name}: {problem.problem}", field, problem.allowed) from None
+        raise refuse(f"{path.name}: {problem.problem}", field, problem.allowed) from None
     stated = value.get("rate_hz", read.rate)
     if stated is None:
-        raise _refused(f"{path.name} does not state its sampling rate", "rate_hz", "a number of Hz")
+        raise refuse(f"{path.name} does not state its sampling rate", "rate_hz", "a number of Hz")
     if read.rate is not None and stated != read.rate:
-        raise _refused(f"{path.name} says {read.rate:g} Hz", "rate_hz", f"{read.rate:g}")
+        raise refuse(f"{path.name} says {read.rate:g} Hz", "rate_hz", f"{read.rate:g}")
     sha256 = file_hash(path)
     if value.get("sha256", sha256) != sha256:
-        raise _refused(f"{path.name} is another file: its SHA-256 is {sha256}", "sha256")
+        raise refuse(f"{path.name} is another file: its SHA-256 is {sha256}", "sha256")
     rate = float(stated) if type(stated) is int else stated
     return value | {"rate_hz": rate, "sha256": sha256, "samples": read.samples.shape[0], "path": str(path)}
 
@@ -105,7 +104,3 @@ def _loaded(path: str, sha256: str, channels: tuple[str, ...] | None, layout: Cs
     if found != sha256:
         raise BadInput("the recording has changed since the recipe was read", path, "sha256", found)
     return samples
-
-
-def _refused(problem: str, field: str, allowed: str = "") -> PydanticCustomError:
-    return PydanticCustomError("recording", "{problem}", {"problem": problem, "field": field, "allowed": allowed})

@@ -5,16 +5,15 @@ from __future__ import annotations
 from typing import Annotated, Literal
 
 from pydantic import BeforeValidator, Field
-from pydantic_core import PydanticCustomError
 
 from datagen.files.netcdf import COMPRESSIONS, NO_LZ4
-from datagen.settings.table import Table
+from datagen.settings.table import Table, refuse
 
 
 def _not_lz4(compression: object) -> object:
     """The compression; raises PydanticCustomError that says why one that readers may expect is not offered."""
     if compression == "lz4":
-        raise PydanticCustomError("settings", "{problem}", {"problem": NO_LZ4, "allowed": ", ".join(COMPRESSIONS)})
+        raise refuse(NO_LZ4, allowed=", ".join(COMPRESSIONS))
     return compression
 
 

@@ -32,7 +32,7 @@ SLOWEST_RPM = 300.0
 # slowly, and many sets tell speeds from 10 to 100 Hz.
 SLOWEST_LIKELY_RPM = 100.0
 # Speed, rpm, above which a stated one may be meant in another unit: few shafts turn faster than 1000 times a second.
-FASTEST_RPM = 60_000.0
+FASTEST_LIKELY_RPM = 60_000.0
 # Pitch diameter, mm, below which a stated one may be meant in inches: those of dental drills have more.
 SMALLEST_PITCH_MM = 4.0
 LOUD = "louder than machines are, as if `scale` or `unit` were wrong"
@@ -133,9 +133,9 @@ def speed_doubts(labels: Mapping[str, Any], turns: float, settings: Container[st
     `labels` are those of the record, `settings` the names of those that the SPEC has. Of few turns `turns_doubt` tells.
     """
     rpm, stated = labels["speed_rpm"], _stated(labels)
-    if rpm > FASTEST_RPM:
+    if rpm > FASTEST_LIKELY_RPM:
         hint = ", as if `speed_hz` were in rpm" if "speed_hz" in settings else ""
-        return {f"with a shaft faster than {FASTEST_RPM:g} rpm{hint}": f"{rpm:g} rpm"}
+        return {f"with a shaft faster than {FASTEST_LIKELY_RPM:g} rpm{hint}": f"{rpm:g} rpm"}
     if 0.0 < rpm < SLOWEST_LIKELY_RPM and turns >= FEWEST_TURNS and stated in settings:
         return {f"with a shaft slower than {SLOWEST_LIKELY_RPM:g} rpm, as if `{stated}` were in Hz": f"{rpm:g} rpm"}
     return {}

@@ -13,7 +13,7 @@ from datagen.corpus_files.index import write_index
 from datagen.corpus_files.manifest import Manifest, write_manifest
 from datagen.corpus_files.shard import Sidecar, finished_shards, write_shard
 from datagen.errors import BadInput
-from datagen.files.places import from_home, require_folder
+from datagen.files.places import OUT, from_home, require_folder
 from datagen.progress import Say, Throttle, ignore
 from datagen.recordings.dataset import imported_dataset
 from datagen.recordings.import_plan import ImportPlan, PlannedRecord
@@ -128,16 +128,16 @@ def _require_new(folder: Path) -> None:
     if folder.resolve().is_mount():
         raise BadInput(
             "an import puts a folder of its own in this place, and one that a file system is mounted on cannot be "
-            "replaced", str(folder), "--out", allowed="a folder in it, or another one, new or empty",
+            "replaced", str(folder), OUT, allowed="a folder in it, or another one, new or empty",
         )  # fmt: skip
     if folder.resolve() == Path.cwd():
         raise BadInput(
             "an import puts a folder of its own in this place, and the current one cannot be replaced", str(folder),
-            "--out", allowed="another folder, new or empty",
+            OUT, allowed="another folder, new or empty",
         )  # fmt: skip
     if folder.exists() and any(folder.iterdir()):
         raise BadInput(
-            "this folder is not empty, and an import never adds to what is there", str(folder), "--out",
+            "this folder is not empty, and an import never adds to what is there", str(folder), OUT,
             allowed="a new or an empty folder",
         )  # fmt: skip
 
@@ -145,7 +145,7 @@ def _require_new(folder: Path) -> None:
 def _dataset(shard: list[PlannedRecord], manifest: Manifest) -> xarray.Dataset:
     """The records of a shard, read again."""
     records = list(_read_again(shard))
-    spec = manifest.recipe["spec"]
+    spec = manifest.written
     about = {"title": spec["title"] or spec["name"], "id": spec["name"], "license": spec["licence"]}
     about |= {"references": spec["citation"], **manifest.identity.to_dict()}
     about = {name: text for name, text in about.items() if text}

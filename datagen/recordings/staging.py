@@ -13,6 +13,7 @@ from pathlib import Path
 from datagen.corpus_files.shard import shards_folder
 from datagen.errors import BadInput
 from datagen.files.atomic import TEMPORARY_SUFFIX, sync_folder
+from datagen.files.places import OUT
 
 
 @contextmanager
@@ -45,7 +46,7 @@ def writing(folder: Path) -> Iterator[None]:
     try:
         yield
     except OSError as problem:
-        raise BadInput(f"cannot write here: {problem.strerror}", str(folder), "--out") from None
+        raise BadInput(f"cannot write here: {problem.strerror}", str(folder), OUT) from None
 
 
 def _sweep(place: Path, beginning: str) -> None:

@@ -9,21 +9,23 @@ from typing import Annotated, Any
 from pydantic import AfterValidator, BeforeValidator, Field
 from pydantic_core import PydanticCustomError
 
+from datagen.recipes.operation_settings import FASTEST_RPM
 from datagen.settings.table import Between, Table, refuse
 from physics.angular_speed import RPM_PER_HZ
+from physics.operation import HEAVIEST_LOAD
 from physics.spelling import suggestion
 
 # Those of recipes where these have the setting too; wide enough elsewhere for any machine, not for a slip of units.
 RANGES = {
     "rate_hz": Between(100.0, 1e7),
     "scale": Between(),
-    "speed_rpm": Between(0.0, 1e6),
-    "speed_hz": Between(0.0, 1e6 / RPM_PER_HZ),
-    "nominal_speed_rpm": Between(0.0, 1e6),
+    "speed_rpm": Between(0.0, FASTEST_RPM),
+    "speed_hz": Between(0.0, FASTEST_RPM / RPM_PER_HZ),
+    "nominal_speed_rpm": Between(0.0, FASTEST_RPM),
     "extent_mm": Between(0.0, 1e4, above=True),
     "extent_deg": Between(0.0, 360.0, above=True),
     "depth_um": Between(0.0, 1e5, above=True),
-    "load_n": Between(0.0, 1e7),
+    "load_n": Between(0.0, HEAVIEST_LOAD),
     "snr_db": Between(-100.0, 200.0),
     **dict.fromkeys(("bpfo", "bpfi", "bsf"), Between(0.0, 1e3, above=True)),
     "ftf": Between(0.0, 1.0, above=True),

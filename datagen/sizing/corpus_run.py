@@ -8,7 +8,7 @@ from types import MappingProxyType
 
 from datagen.corpus_files.index import read_index
 from datagen.judging.scored_runs import write_line
-from datagen.judging.splits import ALL, require_split
+from datagen.judging.splits import ALL, TEST, require_split
 from datagen.progress import Count, ignore
 from datagen.sizing.aggregation import summarise
 from datagen.sizing.comparison import score_record, unsized_row
@@ -111,6 +111,6 @@ def _factor(sized: SizedRecord, known: list[KnownSize]) -> float:
 def _split(folder: Path, asked: str | None) -> str:
     present = set(read_index(folder)["split"])
     if asked is None:
-        return "test" if "test" in present else ALL
+        return TEST if TEST in present else ALL
     require_split(folder, present, asked)
     return asked

@@ -50,7 +50,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Fit to the training and validation splits of all corpora and write the file; the exit code."""
     parser = argparse.ArgumentParser(prog="python -m datagen.sizing.fit", description="Fit the size estimator.")
     parser.add_argument("corpora", nargs="+", type=Path, metavar="CORPUS", help="Intervals hold for the first.")
-    parser.add_argument("--out", required=True, type=Path, metavar="FILE.npz", help="The calibration.")
+    parser.add_argument(OUT, required=True, type=Path, metavar="FILE.npz", help="The calibration.")
     parser.add_argument("--workers", type=int, default=2, metavar="N", help="Processes that read the records.")
     asked = parser.parse_args(arguments)
     try:

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from pathlib import Path
 
 from datagen.files.atomic import write_results
 from datagen.files.plain import plain_json
+from datagen.files.text_tables import csv_text
 from datagen.sizing.flat_rows import flat_row, flat_scores
 from datagen.sizing.size_scores import SizeScores
 
@@ -38,8 +37,5 @@ def estimates_csv(scores: SizeScores) -> str:
         for kind in ("events_in_time", "events_in_arc"):
             events = row.pop(kind)
             row |= {f"{kind}_matched": events.matched, f"{kind}_found": events.found, f"{kind}_true": events.true}
-    text = io.StringIO()
-    writer = csv.DictWriter(text, list(rows[0]), lineterminator="\n")
-    writer.writeheader()
-    writer.writerows(rows)
-    return text.getvalue()
+    columns = list(rows[0])
+    return csv_text(columns, ([row[name] for name in columns] for row in rows))

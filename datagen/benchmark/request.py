@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 import os
-from dataclasses import fields
+from dataclasses import fields, replace
 from pathlib import Path
 from typing import Any
 
 from datagen.benchmark.answers import estimator_name
 from datagen.benchmark.impulse_training import NAME, ingredients_of
 from datagen.benchmark.kept_rows import is_kept
-from datagen.benchmark.options import FEATURES, TRANSFER_ROWS, WINDOWS, Learning, Options, Scoring
+from datagen.benchmark.options import FEATURES, TRANSFER_ROWS, WINDOWS, Learning, Scoring
 from datagen.benchmark.plan import Benchmark
 from datagen.benchmark.predictions import FACTS
 from datagen.benchmark.trained import SAVE, TRAIN, is_saved
@@ -19,7 +19,7 @@ from datagen.benchmark.verdicts import RULE
 from datagen.corpus import Corpus
 from datagen.corpus_files.manifest import manifest_path, no_corpus
 from datagen.errors import BadInput
-from datagen.files.places import require_file, require_results_folder
+from datagen.files.places import require_file
 from datagen.judging.scored_runs import no_log
 from datagen.judging.stated_speed import SPEED_ERROR
 from datagen.judging.user_code import FIELD, load_user_code
@@ -37,39 +37,22 @@ ESTIMATOR_FORMS = (
 )
 
 
-def benchmark_of(
-    train: Path,
-    tests: tuple[Path, ...],
-    options: Options,
-    learning_curve: bool,
-    workers: int,
-    out: Path | None,
-    save: Path | None,
-) -> Benchmark:
-    """The benchmark that is asked for; raises BadInput for an option or a folder that cannot be used."""
-    learning, scoring = options.learning, options.scoring
+def checked(asked: Benchmark) -> Benchmark:
+    """The benchmark as it was asked for, with the user's estimator if its options name one; raises BadInput for an
+    option or a folder that cannot be used."""
+    learning, scoring = asked.learning, asked.scoring
     _require_learning(learning)
     _require_scoring(scoring)
-    _require_use(train, tests, learning, learning_curve, save)
+    _require_use(asked)
     estimator = _own_estimator(learning.estimator) if learning.estimator is not None else None
     if scoring.levels and learning.takes_windows:
         problem = "noise is added where features are computed"
         raise BadInput(problem, "", "--noise-db", scoring.noise_db, "--input features")
-    if learning_curve and estimator is not None and not hasattr(estimator, "fit"):
+    if asked.learning_curve and estimator is not None and not hasattr(estimator, "fit"):
         problem = f"{learning.estimator} does not learn"
         raise BadInput(problem, field="--learning-curve", allowed="our learners, or an estimator with a method fit")
-    _require_folders(train, tests, learning.takes_windows)
-    if out is not None:
-        require_results_folder(out)
-    return Benchmark(
-        train=train,
-        tests=tests,
-        options=options,
-        estimator=estimator,
-        learning_curve=learning_curve,
-        workers=workers,
-        save=save,
-    )
+    _require_folders(asked.train, asked.tests, learning.takes_windows)
+    return replace(asked, estimator=estimator)
 
 
 def _own_estimator(name: str) -> Any:
@@ -119,12 +102,11 @@ def _require_scoring(scoring: Scoring) -> None:
         raise BadInput(field="--noise-db", value=scoring.noise_db, allowed=allowed)
 
 
-def _require_use(
-    train: Path, tests: tuple[Path, ...], learning: Learning, learning_curve: bool, save: Path | None
-) -> None:
+def _require_use(asked: Benchmark) -> None:
     """Raise BadInput unless the trained models are scored or saved, and options of learning come with something that is
     yet to be learned from, or read, by them."""
-    if save is None and not tests:
+    train, save, learning = asked.train, asked.save, asked.learning
+    if save is None and not asked.tests:
         raise BadInput("nothing to score on", field="--test", allowed=f"a corpus, or {SAVE} FILE to learn only")
     if save is not None:
         require_file(save, SAVE)
@@ -132,7 +114,7 @@ def _require_use(
             raise BadInput("an estimator of your own is yours to keep", field=SAVE, allowed="with our learners")
     changed = _changed(learning)
     if is_saved(train):
-        changed += ["learning_curve"] * learning_curve + [SAVE.removeprefix("--")] * (save is not None)
+        changed += ["learning_curve"] * asked.learning_curve + [SAVE.removeprefix("--")] * (save is not None)
         if changed:
             raise BadInput(f"{train} has learned already", field=_option(changed[0]), allowed=WITH_A_CORPUS)
     read_by = [name for name in changed if name in ("bandwidth", "speed_error")]

@@ -14,6 +14,7 @@ from datagen.commands.grouped import grouped
 from datagen.commands.program import JsonFile, command, show_tables, write_json
 from datagen.commands.progress_display import show_steps
 from datagen.counts import counted
+from datagen.files.places import require_results_folder
 from datagen.judging.stated_speed import SPEED_ERROR
 from datagen.processes import MOST_WORKERS
 from labels.interval import Interval
@@ -102,18 +103,20 @@ def classify(
     recordings is logged in their folder, in scored_runs.jsonl. A file written by --save is a pickle, which can run any
     program when it is loaded: use only your own.
     """
-    from datagen.benchmark.request import benchmark_of
+    from datagen.benchmark.plan import Benchmark
+    from datagen.benchmark.request import checked
 
-    options = Options(learning, scoring)
-    benchmark = benchmark_of(
+    asked = Benchmark(
         train=train,
         tests=(*(test or []), *(more or [])),
-        options=options,
+        options=Options(learning, scoring),
         learning_curve=learning_curve,
         workers=workers,
-        out=out,
         save=save,
     )
+    benchmark = checked(asked)
+    if out is not None:
+        require_results_folder(out)
     results = _run(benchmark, out)
     write_json(json_file, results.to_dict())
     print_results(results.tests)

@@ -64,20 +64,13 @@ def size(
     from datagen.sizing.flat_rows import flat_scores
     from datagen.sizing.known_sizes import parse_known_sizes
     from datagen.sizing.report_files import write_report
+    from datagen.sizing.size_request import SizeRequest
 
     if out is not None:
         require_results_folder(out)
-    sizes = parse_known_sizes(known_size or ())
+    asked = SizeRequest(folder, estimator, load_known, split, parse_known_sizes(known_size or ()))
     with show_steps() as listener:
-        scores = score_sizes(
-            folder=folder,
-            estimator=estimator,
-            load_known=load_known,
-            split=split,
-            workers=workers,
-            sizes=sizes,
-            count=listener.counting("sizes"),
-        )
+        scores = score_sizes(asked, workers, listener.counting("sizes"))
     write_json(json_file, flat_scores(scores))
     if out is None:
         _print_result(scores)

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from pathlib import Path
-from types import MappingProxyType
 
 from datagen.corpus_files.index import read_index
 from datagen.judging.scored_runs import write_line
@@ -17,60 +16,52 @@ from datagen.sizing.flat_rows import flat_summary
 from datagen.sizing.in_blocks import in_blocks
 from datagen.sizing.known_sizes import KnownSize, factor_for, known_sizes, machine_of, with_effect
 from datagen.sizing.scored_record import ScoredRecord
+from datagen.sizing.size_request import SizeRequest
 from datagen.sizing.size_scores import SizeScores
 from datagen.sizing.size_summary import StatedSizes
 from datagen.sizing.sized_records import SizedRecord, count_records, sized_records, unsized_records, without_load
 from datagen.sizing.stated_sizes import states_sizes, summarise_stated
 
-NONE_KNOWN: Mapping[int, float] = MappingProxyType({})
 
+def score_sizes(asked: SizeRequest, workers: int = 1, count: Count = ignore) -> SizeScores:
+    """Scores of the records asked for.
 
-def score_sizes(
-    folder: Path,
-    estimator: str | None,
-    load_known: bool,
-    split: str | None,
-    workers: int = 1,
-    sizes: Mapping[int, float] = NONE_KNOWN,
-    count: Count = ignore,
-) -> SizeScores:
-    """Scores of the corpus in `folder`, of one split (if None is asked for: its test split, or all if it has none).
-
-    `estimator` is that of the user, None for ours; `load_known` if it is given the load and the Hertz factor. A record
-    that cannot be sized has a row that says why; raises BadInput if none can. Known `sizes` (mm by record) correct the
-    other records of their machines. `count` is called with how many records are done. A run on recordings with a stated
-    extent or state of health is logged beside them, before and after.
+    A record that cannot be sized has a row that says why. `count` is called with how many records are done. A run on
+    recordings with a stated extent or state of health is logged beside them, before and after. Raises BadInput if no
+    record can be sized, or the split, a known size or the estimator cannot be used.
     """
-    sizer = find_estimator(estimator)
-    chosen = _split(folder, split)
-    splits = None if chosen == ALL else (chosen,)
+    folder, sizer = asked.folder, find_estimator(asked.estimator)
+    split = _split(folder, asked.split)
+    splits = None if split == ALL else (split,)
     unsized = [unsized_row(record) for record in unsized_records(folder, splits)]
-    name, logged = estimator or "spallgen", states_sizes(folder)
+    logged = states_sizes(folder)
     if logged:
-        options = {"split": chosen, "load_known": load_known, "known_sizes": dict(sizes)}
-        write_line(folder, {"began": options, "sizes_by": name})
+        _log_beginning(asked, split)
+    known = known_sizes(folder, asked.sizes, _told(asked, sized_records(folder, only=asked.sizes)), sizer)
+    sized = _scored(_told(asked, sized_records(folder, splits)), asked.estimator, known, workers)
+    made = _counted(sized, count_records(folder, splits) - len(unsized), count)
+    scores = _summed_up(asked, split, sorted([*made, *unsized], key=lambda record: record.truth.record), known)
+    if logged:
+        _log_scores(asked, scores.stated)
+    return scores
 
-    def told(records: Iterator[SizedRecord]) -> Iterator[SizedRecord]:
-        return records if load_known else without_load(records)
 
-    known = known_sizes(folder, sizes, told(sized_records(folder, only=sizes)), sizer)
-    records = told(sized_records(folder, splits))
-    total = count_records(folder, splits) - len(unsized)
-    made = _counted(_scored(records, estimator, known, workers), total, count)
-    scored = sorted([*made, *unsized], key=lambda record: record.truth.record)
+def _told(asked: SizeRequest, records: Iterator[SizedRecord]) -> Iterator[SizedRecord]:
+    """The records as the estimator is to see them."""
+    return records if asked.load_known else without_load(records)
+
+
+def _summed_up(asked: SizeRequest, split: str, scored: list[ScoredRecord], known: list[KnownSize]) -> SizeScores:
     true = [record for record in scored if record.truth.known]
-    stated = summarise_stated(scored)
-    if logged:
-        _log_scores(folder, name, stated)
     return SizeScores(
-        folder=str(folder),
-        estimator=name,
-        split=chosen,
-        load_known=load_known,
+        folder=str(asked.folder),
+        estimator=asked.estimator_name,
+        split=split,
+        load_known=asked.load_known,
         records=scored,
-        summary=summarise(true, load_known) if true else None,
+        summary=summarise(true, asked.load_known) if true else None,
         known_sizes=with_effect(known, scored),
-        stated=stated,
+        stated=summarise_stated(scored),
         load_given=sum(record.answer.load_known for record in scored),
     )
 
@@ -84,10 +75,16 @@ def _counted(scored: Iterator[ScoredRecord], total: int, count: Count) -> list[S
     return rows
 
 
-def _log_scores(folder: Path, name: str, stated: StatedSizes | None) -> None:
-    """Append the scores of the estimator of that `name` to the log beside the recordings."""
+def _log_beginning(asked: SizeRequest, split: str) -> None:
+    """Note in the log beside the recordings what is about to be scored."""
+    options = {"split": split, "load_known": asked.load_known, "known_sizes": dict(asked.sizes)}
+    write_line(asked.folder, {"began": options, "sizes_by": asked.estimator_name})
+
+
+def _log_scores(asked: SizeRequest, stated: StatedSizes | None) -> None:
+    """Append the scores to the log beside the recordings."""
     scores = None if stated is None else flat_summary(stated)
-    write_line(folder, {"sizes_by": name, "scores": scores})
+    write_line(asked.folder, {"sizes_by": asked.estimator_name, "scores": scores})
 
 
 def _scored(

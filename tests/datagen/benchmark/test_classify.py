@@ -11,7 +11,8 @@ import pytest
 from command_line import run
 
 from datagen.benchmark.options import Learning, Options, Scoring
-from datagen.benchmark.request import benchmark_of
+from datagen.benchmark.plan import Benchmark
+from datagen.benchmark.request import checked
 from datagen.benchmark.windows import WINDOW_SAMPLES
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
@@ -166,24 +167,24 @@ def test_options_that_cannot_be_are_refused_before_anything_is_read(classify, op
 def test_options_at_the_edges_of_what_is_allowed_are_taken(tiny_corpus, other_corpus, tmp_path):
     learning = Learning(bandwidth=1000.0, speed_error=0.0)
     asked = (tiny_corpus, (other_corpus,), Options(learning, Scoring(noise_db="-100,100", reject=1.0)))
-    plan = benchmark_of(*asked, learning_curve=False, workers=1, out=None, save=tmp_path / "saved")
+    plan = checked(Benchmark(*asked, save=tmp_path / "saved"))
     assert (plan.learning, plan.scoring.levels, plan.save) == (learning, (-100.0, 100.0), tmp_path / "saved")
     kept = replace(asked[2], scoring=Scoring(reject=0.0), learning=Learning(speed_error=SPEED_ERROR))
-    assert benchmark_of(*asked[:2], kept, learning_curve=True, workers=1, out=None, save=None).learning_curve
+    assert checked(Benchmark(*asked[:2], kept, learning_curve=True)).learning_curve
 
 
 @pytest.mark.parametrize("reject", [-0.1, 1.1, float("nan")])
 def test_a_share_of_doubt_that_is_none_is_refused_whoever_asks(reject, tiny_corpus, other_corpus):
     options = Options(Learning(), Scoring(reject=reject))
     with pytest.raises(BadInput, match=r"--reject = .*; allowed: 0 to 1"):
-        benchmark_of(tiny_corpus, (other_corpus,), options, learning_curve=False, workers=1, out=None, save=None)
+        checked(Benchmark(tiny_corpus, (other_corpus,), options))
 
 
 def test_what_can_be_asked_once_it_has_learned_is_an_estimator(tiny_corpus, other_corpus, tmp_path, monkeypatch):
     (tmp_path / "late.py").write_text("class Late:\n    def fit(self, X, y):\n        return self\nlate = Late()\n")
     monkeypatch.syspath_prepend(str(tmp_path))
     options = Options(Learning(estimator="late:late"), Scoring())
-    plan = benchmark_of(tiny_corpus, (other_corpus,), options, learning_curve=True, workers=1, out=None, save=None)
+    plan = checked(Benchmark(tiny_corpus, (other_corpus,), options, learning_curve=True))
     assert type(plan.estimator).__name__ == "Late"
 
 

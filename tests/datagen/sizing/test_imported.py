@@ -16,6 +16,7 @@ from datagen.errors import BadInput
 from datagen.recordings.importing import import_recordings
 from datagen.recordings.spec import load_spec
 from datagen.sizing.corpus_run import score_sizes
+from datagen.sizing.size_request import SizeRequest
 from datagen.sizing.sized_records import sized_records, without_load
 from datagen.sizing.stated_situation import reason_against, speed_found
 from labels.spall_size.situation import Situation
@@ -70,7 +71,7 @@ def test_a_channel_is_shown_once_beside_its_recording(settings: str, shown: str,
 
 def test_recordings_are_given_sizes_or_not_without_being_scored(tmp_path: Path) -> None:
     corpus = imported(tmp_path, noise=noise(2))
-    scores = score_sizes(corpus, None, True, None)
+    scores = score_sizes(SizeRequest(corpus))
     assert scores.summary is None
     (only,) = scores.records
     assert not only.truth.known
@@ -274,7 +275,7 @@ def test_recordings_are_scored_by_the_extents_that_are_stated_and_the_run_is_log
 
 def test_recordings_of_which_nothing_is_stated_are_neither_scored_nor_logged(tmp_path: Path) -> None:
     corpus = imported(tmp_path, noise=noise(2))
-    assert score_sizes(corpus, None, True, None).stated is None
+    assert score_sizes(SizeRequest(corpus)).stated is None
     assert not (corpus / "scored_runs.jsonl").exists()
 
 
@@ -292,7 +293,7 @@ def test_the_records_whose_load_and_hertz_factor_were_given_are_counted(
     corpus = imported(tmp_path, TABLE, free=noise(1), pressed=noise(2), rest=noise(3))
     monkeypatch.setattr("datagen.sizing.corpus_run.find_estimator", lambda _: Tells())
     for load_known, given in ((True, ["pressed"]), (False, [])):
-        scores = score_sizes(corpus, None, load_known, None)
+        scores = score_sizes(SizeRequest(corpus, load_known=load_known))
         assert [one.truth.recording for one in scores.records if one.answer.load_known] == given
         assert scores.load_given == len(given)
 

@@ -25,6 +25,7 @@ from datagen.sizing.known_sizes import (
     with_effect,
 )
 from datagen.sizing.scored_record import ScoredRecord
+from datagen.sizing.size_request import SizeRequest
 from labels.spall_size.known_size import known_size_factor
 from labels.spall_size.situation import Situation
 from labels.spall_size.size_estimate import SizeEstimate, SizeOutcome
@@ -99,7 +100,7 @@ def test_the_other_records_of_the_machine_are_corrected_and_no_others(corpus: Pa
 
 
 def test_without_a_known_bearing_the_rig_is_the_machine(corpus: Path) -> None:
-    scores = score_sizes(corpus, None, True, "all", sizes={6: 1.0})
+    scores = score_sizes(SizeRequest(corpus, split="all", sizes={6: 1.0}))
     factor = known_size_factor(2.0, 1.0)
     each = {one.truth.record: one.answer.known_size_factor for one in scores.records}
     factors = {record: own for record, own in each.items() if own != 1.0}

@@ -27,6 +27,7 @@ from datagen.sizing.estimators import default_estimator, find_estimator
 from datagen.sizing.known_sizes import KnownSize, with_effect
 from datagen.sizing.record_errors import extent_error, lag_error, noise_level, noise_levels
 from datagen.sizing.scored_record import ScoredRecord
+from datagen.sizing.size_request import SizeRequest
 from datagen.sizing.size_summary import SizeSummary
 from datagen.sizing.sized_records import sized_records, without_load
 from datagen.sizing.stated_situation import wrong_speed
@@ -71,7 +72,7 @@ def sized_corpus(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def test_gaps_are_sized_from_vibration_alone_and_the_healthy_bearing_is_not(sized_corpus: Path) -> None:
-    scores = score_sizes(sized_corpus, None, True, "all")
+    scores = score_sizes(SizeRequest(sized_corpus, split="all"))
     gaps, healthy = scores.records[:3], scores.records[3]
     assert all(one.found and one.answer.race == "outer" for one in gaps)
     # Half of the ladder's clean records are within 3 %, its mean is about 5 %; three records may do twice as badly.
@@ -84,7 +85,7 @@ def test_gaps_are_sized_from_vibration_alone_and_the_healthy_bearing_is_not(size
 def test_the_same_holds_without_load_and_the_estimator_is_given_nothing_of_it(sized_corpus: Path) -> None:
     situations = [one.situation for one in without_load(sized_records(sized_corpus))]
     assert all(not one.load_known and one.race is None for one in situations)
-    scores = score_sizes(sized_corpus, None, False, "all")
+    scores = score_sizes(SizeRequest(sized_corpus, load_known=False, split="all"))
     assert np.mean([extent_error(one) for one in scores.records[:3]]) < 0.25
 
 
@@ -125,7 +126,7 @@ def test_the_command_writes_report_table_and_picture(sized_corpus: Path, tmp_pat
 def test_an_answer_has_every_unit_with_intervals_and_says_when_balls_passed(
     sized_corpus: Path,
 ) -> None:
-    gap = score_sizes(sized_corpus, None, True, "all").records[0]
+    gap = score_sizes(SizeRequest(sized_corpus, split="all")).records[0]
     answer = gap.answer
     assert (answer.race, answer.reason) == ("outer", "")
     assert "Hertz" in answer.method
@@ -149,7 +150,7 @@ def test_an_answer_has_every_unit_with_intervals_and_says_when_balls_passed(
 def test_events_are_found_where_balls_are_released_and_loaded_again(sized_corpus: Path) -> None:
     truths = [one.truth for one in sized_records(sized_corpus)][:3]
     away = []
-    for scored, truth in zip(score_sizes(sized_corpus, None, True, "all").records, truths, strict=False):
+    for scored, truth in zip(score_sizes(SizeRequest(sized_corpus, split="all")).records, truths, strict=False):
         assert truth is not None
         for found, true in zip(scored.answer.event_times.T, (truth.first, truth.last), strict=True):
             away.append(np.median(found - true[np.abs(found[:, None] - true).argmin(axis=1)]))
@@ -196,7 +197,7 @@ def test_users_bring_their_own_estimator(sized_corpus: Path, tmp_path: Path, mon
     source = Path(__file__).read_text().split("@pytest.fixture")[0]
     (tmp_path / "my_estimators.py").write_text(source)
     monkeypatch.syspath_prepend(tmp_path)
-    scores = score_sizes(sized_corpus, "my_estimators:AlwaysOneDegree", True, "all")
+    scores = score_sizes(SizeRequest(sized_corpus, "my_estimators:AlwaysOneDegree", split="all"))
     assert all(extent_error(one) == pytest.approx(2.0 / 3.0) for one in scores.records[:3])  # 1 degree for 3
 
 
@@ -222,7 +223,7 @@ def test_of_a_corpus_with_a_split_test_that_alone_is_scored_unless_another_is_as
     index = pandas.read_csv(divided / "index.csv", keep_default_na=False)
     index["split"] = [splits[record % 2] for record in index["record"]]
     index.to_csv(divided / "index.csv", index=False)
-    scores = score_sizes(divided, None, True, None)
+    scores = score_sizes(SizeRequest(divided))
     assert [record.truth.record for record in scores.records] == scored
     assert scores.split == ("test" if "test" in splits else "all")
 

@@ -20,6 +20,7 @@ from datagen.errors import BadInput
 from datagen.sizing.comparison import score_record
 from datagen.sizing.corpus_run import score_sizes
 from datagen.sizing.estimators import find_estimator
+from datagen.sizing.size_request import SizeRequest
 from datagen.sizing.sized_records import SizedRecord, sized_records
 from datagen.sizing.user_estimator import UserEstimator
 from labels.spall_size.situation import Situation
@@ -173,7 +174,7 @@ def test_a_class_is_made_once_in_every_process(
     )
     monkeypatch.syspath_prepend(tmp_path)
     monkeypatch.setenv("PYTHONPATH", f"{tmp_path}:{':'.join(sys.path)}")  # for the worker processes
-    scores = score_sizes(tiny_corpus, f"{name}:Counted", True, "all", workers)
+    scores = score_sizes(SizeRequest(tiny_corpus, f"{name}:Counted", split="all"), workers)
     notes = [line.split() for line in (tmp_path / "notes").read_text().splitlines()]
     made = [process for what, process in notes if what == "made"]
     asked = [process for what, process in notes if what == "asked"]
@@ -191,7 +192,7 @@ def test_records_are_read_by_the_calling_thread_alone(tiny_corpus: Path, monkeyp
             yield one
 
     monkeypatch.setattr("datagen.sizing.corpus_run.sized_records", watched)
-    scores = score_sizes(tiny_corpus, None, True, "all", workers=2)
+    scores = score_sizes(SizeRequest(tiny_corpus, split="all"), workers=2)
     assert len(readers) == len(scores.records) == 14
     assert set(readers) == {threading.current_thread()}
 
@@ -199,7 +200,5 @@ def test_records_are_read_by_the_calling_thread_alone(tiny_corpus: Path, monkeyp
 @pytest.mark.parametrize("workers", [1, 2])
 def test_every_record_is_counted_as_it_is_done(tiny_corpus: Path, workers: int) -> None:
     counts: list[tuple[int, int]] = []
-    scores = score_sizes(
-        tiny_corpus, None, True, "all", workers, count=lambda done, total: counts.append((done, total))
-    )
+    scores = score_sizes(SizeRequest(tiny_corpus, split="all"), workers, lambda *reached: counts.append(reached))
     assert counts == [(done, len(scores.records)) for done in range(1, 15)]

@@ -170,16 +170,14 @@ class Corpus:
         """What `to_numpy` gives for `records` (all, in order, if None), in batches: pairs of record indices (B,) and
         their arrays (B, …) with B ≤ `size`.
 
-        Only one batch is in memory at a time. Raises BadInput if the records of a batch differ in shape or one is not
-        in the corpus, and unless `size` is a whole number from 1 on.
+        Only one batch is in memory at a time. Raises BadInput unless `size` is a whole number from 1 on, and on the way
+        if the records of a batch differ in shape or one is not in the corpus.
         """
         if not isinstance(size, Integral) or size < 1:
             raise BadInput(field="size", value=size, allowed="a whole number from 1 on")
         chosen = np.asarray(list(self.labels["record"] if records is None else records))
-        for start in range(0, chosen.size, size):
-            batch = chosen[start : start + size]
-            signals = self._stack([self.waveform(record, variable) for record in batch], variable)
-            yield batch.astype(np.int64), signals
+        batches = (chosen[start : start + size] for start in range(0, chosen.size, size))
+        return ((batch.astype(np.int64), self.to_numpy(variable, batch)) for batch in batches)
 
     def to_numpy(self, variable: str = "acceleration", records: Iterable[int] | None = None) -> NDArray[Any]:
         """What `waveform` gives for each of `records` (all, in order, if None), stacked to (N, …): (N, T, axes) in m/s²

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -149,13 +149,17 @@ def is_whole(folder: Path, sidecar: Sidecar) -> bool:
     return path.is_file() and path.stat().st_size == sidecar.bytes
 
 
+def by_number(paths: Iterable[Path]) -> list[Path]:
+    """Sidecars in the order of their shards: their names have six digits, and more from shard 1 000 000 on."""
+    return sorted(paths, key=lambda path: (len(path.name), path.name))
+
+
 def finished_shards(folder: Path) -> Iterator[Sidecar]:
     """Every finished shard of the corpus `folder`, by number: those with a valid sidecar and a file of the right size.
 
     Copies of a sidecar under another name do not count.
     """
-    # Names have six digits, and more from shard 1 000 000 on.
-    for path in sorted(shards_folder(folder).glob("shard_*.json"), key=lambda path: (len(path.name), path.name)):
+    for path in by_number(shards_folder(folder).glob("shard_*.json")):
         sidecar = read_sidecar(path)
         if sidecar is not None and path == sidecar_path(folder, sidecar.shard) and is_whole(folder, sidecar):
             yield sidecar

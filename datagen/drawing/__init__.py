@@ -1,7 +1,7 @@
 """Every picture that commands draw.
 
 - `preview`: one record on one sheet; a `portrait` is what its `sheet` shows, made of `time_panels`, `frequency_panels`
-  and `path_panels`; `decibel_panel`: power over time and frequency; `portrayed`: where a portrait comes from;
+  and `path_panels`; `decibel_panel`: power over time and frequency; `portrait_sources`: where a portrait comes from;
   `close_up`: the stretch shown enlarged
 - `measured_portrait`, `measured_sheet`: the same of an imported recording
 - `overview`: a whole corpus

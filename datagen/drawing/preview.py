@@ -48,7 +48,7 @@ def preview_png(source: str | Path, record: int, say: Say = ignore) -> tuple[byt
 
     Raises BadInput, and SimulationFailed of a recipe's record.
     """
-    from datagen.drawing.portrayed import corpus_portrait, recipe_portrait
+    from datagen.drawing.portrait_sources import corpus_portrait, recipe_portrait
     from datagen.drawing.sheet import sheet_png
 
     folder = Path(source)
@@ -66,7 +66,7 @@ def preview_png(source: str | Path, record: int, say: Say = ignore) -> tuple[byt
 
 def _measured_png(folder: Path, record: int) -> tuple[bytes, dict[str, Any]]:
     from datagen.drawing.measured_sheet import measured_sheet_png
-    from datagen.drawing.portrayed import measured_portrait
+    from datagen.drawing.portrait_sources import measured_portrait
 
     portrait = measured_portrait(folder, record)
     return measured_sheet_png(portrait), {

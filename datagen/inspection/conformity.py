@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from datagen.corpus_files.format import LABEL_VARIABLES, is_imported
-from labels.schema import LABEL
+from labels.schema import EXTENDED_FROM, LABEL
 from labels.variables import VARIABLES, Variable
 
 if TYPE_CHECKING:
@@ -85,7 +85,7 @@ def _wrong_labels(dataset: xarray.Dataset) -> Iterator[str]:
     rules = {
         "condition and location disagree": healthy != (dataset["location"].values == "none"),
         "condition and extent disagree": healthy != (dataset["extent"].values == 0.0),
-        "condition and extent_spacing disagree": (extended != (relative >= 1.0 - 1e-9)) & ~np.isnan(relative),
+        "condition and extent_spacing disagree": (extended != (relative >= EXTENDED_FROM)) & ~np.isnan(relative),
         "envelope_band is not below half the rate": ~(unbanded | ((low < high) & (high <= _half_rate(dataset)))),
         "tension_share is not a share": ~_within(dataset["tension_share"].values, 0.0, 1.0),
     }

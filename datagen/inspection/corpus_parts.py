@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from datagen.corpus_files.index import read_index
 from datagen.corpus_files.manifest import Manifest
-from datagen.corpus_files.shard import Sidecar, read_sidecar, shard_path, shards_folder, sidecar_path
+from datagen.corpus_files.shard import Sidecar, by_number, read_sidecar, shard_path, shards_folder, sidecar_path
 from datagen.errors import BadInput
 from datagen.inspection.findings import Findings, of_file
 from datagen.inspection.manifest_check import recipe_of
@@ -28,8 +28,8 @@ if TYPE_CHECKING:
 class CorpusParts:
     """What the parts of the corpus in `folder` say; `recipe` and `index` are None where they cannot be read.
 
-    `sidecars` are those that vouch for a shard of their own, by the name of their file; `unlisted` the files of
-    finished shards that the manifest does not list.
+    `sidecars` are those that vouch for a shard of their own, by its number; `unlisted` the files of finished shards
+    that the manifest does not list.
     """
 
     folder: Path
@@ -93,7 +93,7 @@ def _index(folder: Path) -> tuple[pandas.DataFrame | None, Findings]:
 
 def _sidecars(folder: Path) -> tuple[tuple[Sidecar, ...], Findings]:
     sidecars, found = [], Findings()
-    for path in sorted(shards_folder(folder).glob("*.json")):
+    for path in by_number(shards_folder(folder).glob("*.json")):
         sidecar, name = read_sidecar(path), _name(path, folder)
         if sidecar is None:
             found += of_file(name, ["cannot be read"], damaged=True)

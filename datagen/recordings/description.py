@@ -9,7 +9,7 @@ from typing import Any
 from datagen.errors import BadInput
 from datagen.recordings.settings import MOST_BALLS, BearingNumbers
 from datagen.recordings.source import Source
-from labels.schema import LABELS, MEASURED, UNKNOWN, Label
+from labels.schema import EXTENDED_FROM, LABELS, MEASURED, UNKNOWN, Label
 from physics.bearing import RACES, Bearing
 from physics.catalog import bearing as catalogue_bearing
 from physics.checks import InvalidParameter
@@ -142,7 +142,7 @@ def _defect_labels(source: Source, bearing: Bearing | None) -> dict[str, Any]:
         return {"condition": "healthy", "location": "none"} | HEALTHY
     derived = UNKNOWN
     if "extent_spacing" in sizes:
-        derived = "extended" if sizes["extent_spacing"] >= 1.0 - 1e-9 else "line"
+        derived = "extended" if sizes["extent_spacing"] >= EXTENDED_FROM else "line"
     if condition not in (UNKNOWN, derived) and derived != UNKNOWN:
         raise BadInput(
             f"the defect covers {sizes['extent_spacing']:.3g} ball spacings, which makes it {derived}",

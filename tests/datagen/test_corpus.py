@@ -315,9 +315,9 @@ def test_no_records_and_no_size_of_batches_are_refused(corpus: Corpus) -> None:
     with pytest.raises(BadInput, match="no record was chosen"):
         corpus.to_numpy("acceleration", [])
     with pytest.raises(BadInput, match="size = 0; allowed: a whole number from 1 on"):
-        list(corpus.batches(0))
+        corpus.batches(0)  # at once, and not only where the first batch is taken
     with pytest.raises(BadInput, match=r"size = 2\.5; allowed: a whole number from 1 on"):
-        list(corpus.batches(2.5))  # type: ignore[arg-type]
+        corpus.batches(2.5)  # type: ignore[arg-type]
 
 
 def test_a_folder_may_be_named_by_the_sign_for_ones_home(corpus: Corpus, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -8,7 +8,7 @@ from command_line import run
 
 from datagen.drawing.frequency_panels import cursors, draw_envelope_spectrum, line_heights
 from datagen.drawing.path_panels import load_around, load_over_spall
-from datagen.drawing.portrayed import corpus_portrait, recipe_portrait
+from datagen.drawing.portrait_sources import corpus_portrait, recipe_portrait
 from datagen.drawing.preview import draw_preview
 from datagen.drawing.sheet import DPI, HEIGHT, WIDTH, care, draw_sheet, heading, sheet_png, summary
 from datagen.drawing.style import house_style, with_panels
@@ -352,7 +352,7 @@ def test_a_record_that_cannot_be_simulated_ends_with_1_and_leaves_no_picture(rec
     def fails(scenario, stored):
         raise SimulationFailed(Outcome.NOT_FINITE, "the response grows without end")
 
-    monkeypatch.setattr("datagen.drawing.portrayed.make_record", fails)
+    monkeypatch.setattr("datagen.drawing.portrait_sources.make_record", fails)
     picture = tmp_path / "x.png"
     done = run("preview", recipe_file, "--record", "1", "--out", picture)
     assert done.exit_code == 1

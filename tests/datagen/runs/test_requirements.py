@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from command_line import run
 
-from datagen.drawing.portrayed import recipe_portrait
+from datagen.drawing.portrait_sources import recipe_portrait
 from datagen.errors import BadInput
 from datagen.recipes.recipe import Recipe, load_recipe, parse_recipe
 from datagen.recipes.signal_settings import Signal

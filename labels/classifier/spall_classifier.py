@@ -86,18 +86,17 @@ class SpallClassifier(ClassifierMixin, BaseEstimator):
                 axes[~faulty],
                 self.false_alarms,
             )
-            faults, fault_groups, fault_noisy = X[faulty], groups[faulty], noisy[faulty]
-            name = y[faulty].astype(str)
-            inner = np.char.endswith(name, "inner")
-            race = self._stage(RACES)
-            self.race_ = race.fit(_race_columns(faults), inner, fault_groups, fault_noisy)
-            extended = np.char.startswith(name, "extended")
-            # Recipes without extended spalls (or without line spalls) leave nothing to ask in the third question.
-            asked = extended.any() and not extended.all()
-            length = self._stage(("line", "extended"))
-            self.length_ = length.fit(faults, extended, fault_groups, fault_noisy) if asked else None
-            self.always_extended_ = bool(extended.all())
+            self._fit_to_faults(X[faulty], y[faulty].astype(str), groups[faulty], noisy[faulty])
         return self
+
+    def _fit_to_faults(self, X: Array, y: NDArray[np.str_], groups: NDArray[Any], noisy: NDArray[np.bool_]) -> None:
+        """Learn the second and the third question from rows (N, F) with a spall, and their classes (N,)."""
+        self.race_ = self._stage(RACES).fit(_race_columns(X), np.char.endswith(y, "inner"), groups, noisy)
+        extended = np.char.startswith(y, "extended")
+        # Recipes without extended spalls (or without line spalls) leave nothing to ask in the third question.
+        asked = extended.any() and not extended.all()
+        self.length_ = self._stage(("line", "extended")).fit(X, extended, groups, noisy) if asked else None
+        self.always_extended_ = bool(extended.all())
 
     def predict_proba(self, X: Array) -> Array:
         """Probabilities (N, 5) of CLASSES for rows (N, F) of the feature table; they sum to 1 in each row."""

@@ -63,7 +63,9 @@ def table_branches(rolled: Rolled, lips: Array, depth: Array) -> Branches:
     before, after = path.contact[cells], path.contact[cells + 1]
     on_lip = np.minimum(np.abs(before - own), np.abs(after - own)) < ON_LIP
     # Where the contact leaps, the ball may have left the lip for another one before it came to the face.
-    hung = on_lip & (np.abs(after - before) <= LEAP)
+    hung = np.flatnonzero(on_lip & (np.abs(after - before) <= LEAP))
+    # Where three points are in line, the ball leaves both faces of the middle one at the same arc.
+    hung = hung[np.diff(arc[hung], prepend=-math.inf) > NEAREST * rolled.pace]
     cells, arc, place, depth = cells[hung], arc[hung], lips[lip[hung]], depth[lip[hung]]
     return _ending_at(path, rolled, cells, arc, Held(place, depth, rolled.ball.drop(depth, place - arc)))
 

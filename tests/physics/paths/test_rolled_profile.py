@@ -285,6 +285,18 @@ def test_the_path_of_a_table_has_a_break_where_the_ball_begins_to_hang_on_a_lip(
     np.testing.assert_allclose(path.depth(lip - away), 0.0, rtol=0, atol=1e-14)
 
 
+@pytest.mark.parametrize(
+    ("race", "degrees", "shares", "depth"), [("outer", 19.0, (0.21, 0.1), 19e-6), ("inner", 4.9, (0.18, 0.36), 6e-6)]
+)
+def test_points_of_a_table_in_line_leave_every_slope_of_its_path_a_number(gearbox, race, degrees, shares, depth):
+    """Where a finely measured taper turns from bending down to bending up, three of its points are in line."""
+    share, extent = np.linspace(-0.5, 0.5, 1001), math.radians(degrees)
+    entry, exit_ = np.clip((0.5 + share) / shares[0], 0.0, 1.0), np.clip((0.5 - share) / shares[1], 0.0, 1.0)
+    floor = 0.25 * depth * (1.0 - np.cos(np.pi * entry)) * (1.0 - np.cos(np.pi * exit_))
+    path = build_path(table(race, share * extent, floor, extent), gearbox.bearing)
+    assert path.largest_depth == pytest.approx(depth, abs=BETWEEN_NODES)
+
+
 @RACES
 def test_the_deepest_place_of_two_pits_is_in_one_of_them(gearbox, race):
     angle, depth = [-0.03, -0.02, -0.01, 0.01, 0.02, 0.03], [0.0, 3e-6, 0.0, 0.0, 3e-6, 0.0]

@@ -56,6 +56,13 @@ def test_between_noise_and_a_clear_record_the_alarm_moves_in_logits():
     np.testing.assert_allclose(found, [0.5, 0.75, 0.9], rtol=1e-9)  # odds 1, 3, 9
 
 
+def test_the_votes_of_several_axes_alone_have_to_pass_more_log_odds():
+    alarm, table = Alarm(0.5, 0.9, several=float(np.log(3.0))), rows([0.0, 0.0, 1.0, 1.0])
+    several = np.array([False, True, False, True])
+    np.testing.assert_allclose(alarm.at(table, several), [0.5, 0.75, 0.9, 27.0 / 28.0], rtol=1e-9)  # odds 1, 3, 9, 27
+    np.testing.assert_allclose(Alarm(0.5, 0.9).at(table, several), [0.5, 0.5, 0.9, 0.9], rtol=1e-9)
+
+
 def test_the_share_asked_of_healthy_records_passes_the_alarm():
     given = healthy(2000, 1)
     alarm = fit_alarm(*given, ONE_AXIS[: given[0].size], 0.05)
@@ -86,12 +93,14 @@ def test_few_rows_like_noise_leave_one_alarm_for_all():
     assert alarm.in_clear >= alarm.in_noise * (1.0 - 1e-9)  # up to rounding
 
 
-def test_of_few_clear_records_exactly_the_share_passes():
-    level = np.concatenate([np.linspace(-3.0, 3.0, 40), np.linspace(-6.0, -5.0, 40)])
+@pytest.mark.parametrize("kurtosis", [CLEAR, NOISE_LIKE**0.5 * CLEAR**0.5], ids=["clear", "half clear"])
+def test_of_few_clear_records_exactly_the_share_passes(kurtosis):
+    level = np.concatenate([np.linspace(-3.0, 3.0, 40), np.linspace(-1.0, 0.0, 40)])
     noisy = np.arange(80) >= 40
     probability = 1.0 / (1.0 + np.exp(-level))
-    alarm = fit_alarm(probability, rows(np.where(noisy, 0.0, 1.0)), np.arange(80) % 40, noisy, ONE_AXIS[:80], 0.1)
-    assert np.sum(level > logit(np.array([alarm.in_clear]))[0] + 1e-9) == 4  # up to rounding
+    table = rows(np.where(noisy, 0.0, kurtosis))
+    alarm = fit_alarm(probability, table, np.arange(80) % 40, noisy, ONE_AXIS[:80], 0.1)
+    assert np.sum((level > logit(alarm.at(table)) + 1e-9) & ~noisy) == 4  # up to rounding
 
 
 def test_lines_as_high_as_few_healthy_records_have_are_an_alarm_by_themselves():
@@ -127,3 +136,17 @@ def test_a_vote_of_two_axes_passes_the_alarm_as_seldom_as_their_mean():
     heights = line_heights(table[plain], owner[plain], np.arange(4000), axes[plain], alarm.height_several)
     assert np.mean(alarm.by_lines_alone(heights)) == pytest.approx(0.02, abs=0.006)
     assert np.mean(alarm.by_lines_alone(heights * alarm.height_several)) > 0.03
+
+
+def test_how_much_a_vote_raises_is_taken_from_the_records_nearest_their_own_alarms():
+    """Both axes of clear records say the same; those of records like noise are 6 apart, which raises a vote of 2 : 1
+    above the mean by 1.
+
+    Of 50 records the highest fifth are six clear ones, of which 10 % of 50 pass, and four like noise, 3 below theirs.
+    """
+    of_clear = np.array([8.0] * 5 + [7.9] + [0.0] * 34)
+    level = np.concatenate([np.repeat(of_clear, 2), np.tile([-8.0, -2.0], 10)])
+    table, records, axes = rows(np.repeat([1.0, 0.0], [80, 20])), np.arange(100) // 2, np.arange(100) % 2
+    alarm = fit_alarm(probability_of(level), table, records, np.zeros(100, dtype=bool), axes, 0.1)
+    assert logit(np.array([alarm.in_noise, alarm.in_clear])) == pytest.approx([-2.0, 7.9])
+    assert alarm.several == pytest.approx((6 * 0.0 + 4 * 1.0) / 10)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from labels.classifier.liveness import STOPPED, TURNING_EVIDENCE, WHITE, liveness
+from labels.classifier.liveness import STOPPED, TURNING_EVIDENCE, WHITE, Liveness, liveness
 from labels.features.analysis import analyse
 from labels.features.kinematics import bearing_kinematics
 
@@ -127,13 +127,20 @@ def test_a_digit_is_the_smallest_step_of_the_recorder_though_it_comes_once():
 
 
 @pytest.mark.parametrize(("order", "harmonics"), [(KNOWN.bpfo, (1, 2)), (KNOWN.bpfi, (1, 2)), (1.0, (4, 5))])
-def test_passing_balls_and_higher_harmonics_show_a_turning_shaft_too(order, harmonics):
-    noise = 5e-3 * np.random.default_rng(0).standard_normal(TIME.size)
-    passing = sum(5e-3 * np.cos(2.0 * np.pi * order * KNOWN.shaft_hz * k * TIME) for k in harmonics)
+@pytest.mark.parametrize("size", [20_000, 40_000])
+def test_passing_balls_and_higher_harmonics_show_a_turning_shaft_too(order, harmonics, size):
+    noise, time = 5e-3 * np.random.default_rng(0).standard_normal(size), np.arange(size) / RATE
+    passing = sum(5e-3 * np.cos(2.0 * np.pi * order * KNOWN.shaft_hz * k * time) for k in harmonics)
     assert found(noise + passing).evidence > TURNING_EVIDENCE
 
 
-@pytest.mark.parametrize(("frequency", "counts"), [(8.0, False), (13.0, True), (990.0, True), (1010.0, False)])
+@pytest.mark.parametrize(("velocity", "reason"), [(0.0709e-3, STOPPED), (0.0711e-3, "")])
+def test_a_tenth_of_the_limit_of_zone_a_is_a_machine_that_shakes(velocity, reason):
+    # ISO 10816-1, class I: 0.71 mm/s.
+    assert Liveness(velocity, digits=100.0, colour=0.0, evidence=0.0, turns=100.0).reason == reason
+
+
+@pytest.mark.parametrize(("frequency", "counts"), [(8.0, False), (11.0, True), (990.0, True), (1010.0, False)])
 def test_the_velocity_is_that_from_10_hz_to_1_khz(frequency, counts):
     tone = np.cos(2.0 * np.pi * frequency * TIME)
     noise = 1e-6 * np.random.default_rng(3).standard_normal(TIME.size)

@@ -126,13 +126,21 @@ def faulty(carrier, turns, cages):
         faulty(BEARING.bpfo * 0.99, 2, 2),
         faulty(BEARING.bpfi * 1.01, 5, 1),
         faulty(2.0 * BEARING.ball_spin, 1, 3),
+        # Here they fill a comb by chance, which only their being known as those of the fault shows.
+        faulty(BEARING.bpfo * 1.0028, 2, 2),
+        faulty(BEARING.bpfo * 1.0056, 2, 2),
+        faulty(BEARING.bpfi * 0.9973, 5, 1),
+        faulty(2.0 * BEARING.ball_spin * 1.0145, 1, 3),
         multiples(BEARING.ftf * SHAFT, 100),
         multiples((1.0 - BEARING.ftf) * SHAFT, 60),
         multiples(SHAFT, 30),
         multiples(0.5 * SHAFT, 60),
     ],
-    ids=["outer race", "inner race", "ball", "cage over outer", "cage over inner", "shaft", "half the shaft"],
-)
+    ids=[
+        "outer race", "inner race", "ball", "outer race in fifths", "outer race in rows", "inner race in rows",
+        "ball in rows", "cage over outer", "cage over inner", "shaft", "half the shaft",
+    ],
+)  # fmt: skip
 def test_what_a_bearing_makes_is_no_comb_of_another_shaft(lines):
     assert combs(spectrum(*lines)) == []
 

@@ -46,6 +46,21 @@ def test_a_spectrum_goes_up_to_its_bandwidth_and_has_nothing_at_0_hz_whatever_th
     assert np.abs(offset.flat - found.flat).max() < 1e-6
 
 
+def test_the_end_is_dropped_down_to_a_length_of_twos_threes_and_fives():
+    noise = np.random.default_rng(8).standard_normal(10_799)
+    whole, cut = condition(noise, 20_000.0), condition(noise[:10_368], 20_000.0)
+    # 10 368 is 2^7 3^4; the next such number is 10 800, and 10 780 = 2^2 5 7^2 11 is none.
+    assert (whole.samples, whole.step) == (10_368, 20_000.0 / 10_368)
+    assert np.array_equal(whole.flat, cut.flat)
+
+
+def test_samples_of_single_precision_are_transformed_in_double():
+    noise = (1e4 + np.random.default_rng(9).standard_normal(4000)).astype(np.float32)
+    found, double = condition(noise, 1000.0), condition(noise.astype(np.float64), 1000.0)
+    assert found.raw.dtype == np.complex128
+    assert np.array_equal(found.raw, double.raw)
+
+
 def test_64_samples_are_enough_and_63_are_not():
     noise = np.random.default_rng(6).standard_normal(64)
     assert condition(noise, 1000.0).samples == 64

@@ -74,6 +74,12 @@ def test_a_comb_whose_every_other_line_is_strong_is_told_by_all():
     assert combs(excess)[0] == pytest.approx(rate, abs=STEP / 10)
 
 
+def test_no_part_of_a_comb_is_slower_than_what_is_looked_for():
+    found = combs(spectrum(*multiples(0.115 * SHAFT, 250)))
+    assert found[0] == pytest.approx(0.230 * SHAFT, abs=STEP / 10)
+    assert min(found) > 0.12 * SHAFT
+
+
 @pytest.mark.parametrize("missing", [(2, 3, 6, 10), (2, 3, 6, 10, 13)])
 def test_of_sixteen_lines_a_comb_may_lack_four_and_not_five(missing):
     rate = 0.55 * SHAFT
@@ -140,12 +146,16 @@ def faulty(carrier, turns, cages):
         faulty(2.0 * BEARING.ball_spin * 1.0145, 1, 3),
         multiples(BEARING.ftf * SHAFT, 100),
         multiples((1.0 - BEARING.ftf) * SHAFT, 60),
+        multiples(2.0 * BEARING.ftf * SHAFT, 40),
         multiples(SHAFT, 30),
         multiples(0.5 * SHAFT, 60),
+        multiples(1.5 * SHAFT, 20),
+        multiples(2.0 * SHAFT, 15),
     ],
     ids=[
         "outer race", "inner race", "ball", "outer race in fifths", "outer race in rows", "inner race in rows",
-        "ball in rows", "cage over outer", "cage over inner", "shaft", "half the shaft",
+        "ball in rows", "cage over outer", "cage over inner", "cage twice a turn", "shaft", "half the shaft",
+        "three halves of the shaft", "shaft twice a turn",
     ],
 )  # fmt: skip
 def test_what_a_bearing_makes_is_no_comb_of_another_shaft(lines):

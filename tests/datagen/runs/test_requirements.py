@@ -143,8 +143,10 @@ def test_a_shard_that_no_memory_holds_is_refused_with_a_smaller_one(
 
 
 def test_a_record_that_the_disk_does_not_hold_is_refused(refused: Refused, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("datagen.runs.requirements.shutil.disk_usage", lambda _: type("Disk", (), {"free": 1000})())
-    assert "one record needs about 0.0 MB of disk space; 0.0 MB are free" in refused(TEXT)
+    monkeypatch.setattr("datagen.runs.requirements.shutil.disk_usage", lambda _: type("Disk", (), {"free": 1e6})())
+    message = refused(TEXT.replace("0.05", "10"))
+    needed, free = re.findall(r"one record needs about ([\d.]+) MB of disk space; ([\d.]+) MB are free", message)[0]
+    assert float(needed) > float(free) == 1.0
 
 
 def test_a_preview_is_held_to_the_same_memory(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -223,7 +223,7 @@ class Run:
         if not todo:
             return NO_INDEX
         missing = max(needed_bytes(todo) - shutil.disk_usage(self.folder).free, 0.0)
-        largest = max((needed_bytes([shard]) for shard in todo), default=0.0)
+        largest = max(needed_bytes([shard]) for shard in todo)
         cause, needed = {
             errno.EFBIG: ("files may not be as large as a shard here (ulimit -f)", f"files of {bytes_text(largest)}"),
             errno.EDQUOT: ("the quota of this disk is used up", bytes_text(needed_bytes(todo))),

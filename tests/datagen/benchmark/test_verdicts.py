@@ -242,7 +242,7 @@ def test_faults_that_nobody_could_judge_are_errors_of_race_but_have_no_rank_and_
 def test_where_nothing_could_be_judged_there_is_neither_area_nor_calibration():
     labels, rows = corpus(["none", "outer", "inner"])
     rows = CorpusRows(rows.rows[:0], dict.fromkeys(range(3), RecordFacts("too short")))
-    tested = judge(labels, rows, Model("said", Said([]), 0.5))
+    tested = judge(labels, rows, Model("said", None, 0.5))  # which nobody asks about nothing
     said = summarise(tested).models["said"]
     assert said.race_accuracy.value == 0.0
     assert np.isnan(said.detection_auc.value)

@@ -25,7 +25,7 @@ from datagen.runs.generate import generate
 from datagen.runs.workers import Engine
 from datagen.scenarios.redraw import Redraw, Refused, add_refused, count_refused
 from datagen.scenarios.sampling import draw_scenario
-from labels.schema import LABELS
+from labels.schema import LABEL, LABELS
 
 RECIPE = """
 name = "refusing"
@@ -125,6 +125,16 @@ def test_the_middle_of_a_range_is_that_of_the_records_in_order(recipe: Recipe, i
     smallest = min(spall.extent for own in spalls for spall in own)
     assert info.ranges["extent"].smallest == 0.0
     assert info.ranges["extent"].median == pytest.approx(smallest / 2.0, rel=1e-9)
+
+
+def test_a_range_is_of_the_records_that_have_the_value_and_counts_the_others(copy: Path) -> None:
+    index = pandas.read_csv(copy / "index.csv", keep_default_na=False)
+    index["tension_share"] = ["NaN"] * 3 + ["0.5"] * 3 + ["0.25"] * 7 + ["0.125"]
+    index["snr_db"] = "NaN"
+    index.to_csv(copy / "index.csv", index=False)
+    ranges = corpus_info(copy).ranges
+    assert ranges["tension_share"] == Range(LABEL["tension_share"].unit, 0.125, 0.25, 0.5, 3)
+    assert "snr_db" not in ranges
 
 
 def test_the_tables_show_what_was_refused_and_how_it_is_balanced(info: Info) -> None:

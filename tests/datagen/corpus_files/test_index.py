@@ -38,6 +38,7 @@ def test_the_index_has_one_row_a_record_in_their_order_with_its_place(folder: Pa
     assert list(plain.columns) == [*LABEL_COLUMNS, "shard", "position"]
     assert list(plain["shard"].str[-5:-3].astype(int)) == [0, 1, 1, 0, 2, 2, 0, 3, 1]
     assert list(plain["position"]) == [0, 0, 1, 1, 0, 1, 2, 0, 2]
+    assert b"\r" not in index_path(folder).read_bytes()
 
 
 def test_rows_keep_the_order_of_the_records_where_the_first_ones_of_a_shard_failed(

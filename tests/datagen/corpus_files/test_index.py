@@ -49,7 +49,8 @@ def test_rows_keep_the_order_of_the_records_where_the_first_ones_of_a_shard_fail
     for shard, indices in enumerate([(6, 9), (8,), (2, 4)]):
         dataset = to_dataset([make_plain_record(index) for index in indices], {})
         write_shard(tmp_path, Sidecar(shard, IDENTITY, failed=lost[shard]), dataset, "zlib")
-    write_index(tmp_path, finished_shards(tmp_path))
+    nothing_made = Sidecar(3, IDENTITY, failed=(Failure(5, "lost"),))
+    write_index(tmp_path, iter([*finished_shards(tmp_path), nothing_made]))
     assert list(pandas.read_csv(index_path(tmp_path))["record"]) == [2, 4, 6, 8, 9]
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import gc
 import multiprocessing
 import os
 import shutil
@@ -104,6 +105,29 @@ def test_a_file_that_is_reached_by_several_paths_is_open_once(tiny_corpus: Path,
         assert opened[0].isopen()
         reader.close()
     assert not opened[0].isopen()
+
+
+def test_of_more_files_than_are_kept_open_the_one_read_longest_ago_is_closed(
+    tiny_corpus: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("datagen.corpus_files.open_shards.OPEN_FILES", 2)
+    first, second, third = sorted((tiny_corpus / "shards").glob("*.nc"))[:3]
+    shards = OpenShards(tiny_corpus)
+    for path in (first, second, first, third):
+        with shards.reading(f"shards/{path.name}"):
+            pass
+    assert shards.open_files == [first.resolve(), third.resolve()]
+    shards.close()
+
+
+def test_a_reader_that_nobody_holds_any_more_has_closed_its_files(tiny_corpus: Path) -> None:
+    shards = OpenShards(tiny_corpus)
+    with shards.reading("shards/shard_000000.nc") as file:
+        pass
+    assert file.isopen()
+    del shards
+    gc.collect()
+    assert not file.isopen()
 
 
 def test_everything_of_a_record_is_read_through_the_file_that_is_open(

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from datagen.corpus_files.format import Identity
-from datagen.corpus_files.manifest import Manifest, Span, add_spans
+from datagen.corpus_files.manifest import Manifest, ShardEntry, Span, add_spans
 from datagen.corpus_files.shard import Failure, Sidecar
 from datagen.scenarios.redraw import Refused
 
@@ -21,6 +21,24 @@ def test_a_manifest_counts_what_a_shard_without_a_record_cost_and_why(tmp_path: 
     manifest = Manifest("a", IDENTITY, {}, 8, ((7, 8),)).with_shards(tmp_path, [sidecar])
     assert (manifest.shards, manifest.failed, manifest.seconds) == ((), sidecar.failed, 1.5)
     assert manifest.refused == refused
+
+
+def test_a_manifest_lists_the_shards_that_hold_records_and_adds_them_up(tmp_path: Path) -> None:
+    refused = Refused(2, "too long")
+    sidecars = [
+        Sidecar(3, IDENTITY, (4, 6, 9), bytes=70, sha256="s", content="c", seconds=0.25, refused={"record": refused}),
+        Sidecar(4, IDENTITY, failed=(Failure(5, "why"),), seconds=0.5, refused={"record": refused}),
+        Sidecar(5, IDENTITY, (7,), bytes=30, sha256="t", content="d", seconds=1.0),
+    ]
+    begun = Manifest("a", IDENTITY, {"title": "A title"}, 12, ((0, 3), (4, 10)), bytes=5, seconds=9.0)
+    manifest = begun.with_shards(tmp_path, sidecars)
+    assert manifest.shards == (
+        ShardEntry("shards/shard_000003.nc", 3, 4, 9, 70, "s", "c"),
+        ShardEntry("shards/shard_000005.nc", 1, 7, 7, 30, "t", "d"),
+    )
+    assert (manifest.records, manifest.asked_records, manifest.bytes, manifest.seconds) == (4, 9, 100, 1.75)
+    assert manifest.refused == {"record": Refused(4, "too long")}
+    assert (manifest.imported, manifest.title) == (False, "A title")
 
 
 @pytest.mark.parametrize(

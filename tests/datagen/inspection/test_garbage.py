@@ -82,6 +82,13 @@ def test_a_manifest_of_recordings_has_their_spec(copy: Path) -> None:
         assert f'{manifest_path(copy)}: not a manifest of a corpus: it lacks "spec"' in told_by(command, copy)
 
 
+def test_a_folder_in_the_place_of_the_manifest_cannot_be_read(copy: Path) -> None:
+    manifest_path(copy).unlink()
+    manifest_path(copy).mkdir()
+    told = f"{manifest_path(copy)}: not a manifest of a corpus: cannot be read (Is a directory)\n"
+    assert told_by("check", copy).endswith(told)  # which writing it anew would not mend
+
+
 def test_a_manifest_nested_without_end_is_told(copy: Path) -> None:
     manifest_path(copy).write_text("[" * 100_000)
     assert "it is nested too deeply" in told_by("check", copy)
@@ -108,8 +115,8 @@ def test_a_sidecar_that_is_none_is_damage(change: dict[str, object], copy: Path)
 
 
 INDICES = {
-    "an empty file": (lambda text: "", 'it lacks the column "record" and'),
-    "no table": (lambda text: "hello\nworld\n", 'it lacks the column "record" and'),
+    "an empty file": (lambda text: "", f'it lacks the column "record" and {len(LABEL_COLUMNS) + 1} more;'),
+    "no table": (lambda text: "hello\nworld\n", f'it lacks the column "record" and {len(LABEL_COLUMNS) + 1} more;'),
     "a lost column": (lambda text: text.replace("bridged", "bridge", 1), 'it lacks the column "bridged";'),
     "a short row": (lambda text: text + "1,2\n", "index.csv, line 16: not the index of a corpus: 2 cells, but"),
     "a word for a number": (lambda text: text.replace("420.0", "fast", 1), 'speed_rpm = "fast" is not a number'),
@@ -117,7 +124,10 @@ INDICES = {
         lambda text: text.replace("False", "no", 1),
         'bridged = "no" is not a truth value, True or False',
     ),
-    "a word for a count": (lambda text: text.replace("\n0,", "\nzero,", 1), 'record = "zero" is not a whole number'),
+    "a word for a count": (
+        lambda text: text.replace("\n4,", "\nfour,", 1),
+        'line 6: not the index of a corpus: record = "four" is not a whole number',
+    ),
     "a record twice": (
         lambda text: text + text.splitlines()[1] + "\n",
         "line 16: not the index of a corpus: record = 0 occurs twice",
@@ -152,9 +162,10 @@ def test_a_place_beyond_its_shard_is_told_of_the_index_and_not_of_the_shard(copy
     assert "index.csv places a record beyond the end of this shard" in done.stderr
 
 
-def test_records_asked_for_beyond_the_recipe_are_no_manifest(copy: Path) -> None:
+@pytest.mark.parametrize("span", [(0, 10**15), (0, 15), (-1, 3), (5, 3)])
+def test_records_asked_for_beyond_the_recipe_are_no_manifest(span: tuple[int, int], copy: Path) -> None:
     content = json.loads(manifest_path(copy).read_text())
-    manifest_path(copy).write_text(json.dumps(content | {"asked": [[0, 10**15]]}))
+    manifest_path(copy).write_text(json.dumps(content | {"asked": [[0, 14], span]}))
     assert "its entries are not those of this version of the format" in told_by("check", copy)
 
 

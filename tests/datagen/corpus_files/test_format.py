@@ -159,7 +159,10 @@ def test_a_dataset_made_by_the_format_breaks_none_of_its_rules(dataset: xarray.D
     ("name", "value", "sentence"),
     [
         ("acceleration", np.nan, "acceleration has 1 values that are not finite"),
+        ("speed_rpm", np.nan, "speed_rpm has 1 values that are not finite"),  # which simulations know
+        ("snr_db", np.inf, "snr_db has 1 values that are not finite"),  # which may be NaN
         ("condition", "broken", 'condition has the value "broken"'),
+        ("condition", "unknown", 'condition has the value "unknown"'),  # as of recordings alone
         ("condition", "extended", "condition and extent_spacing disagree"),
         ("extent_spacing", 1.0, "condition and extent_spacing disagree"),  # of a line spall
         ("location", "none", "condition and location disagree"),
@@ -206,6 +209,13 @@ def test_a_missing_variable_or_unit_is_named(dataset: xarray.Dataset) -> None:
         assert list(violations(dataset.drop_vars(name))) == [f"{name} is missing"]
     dataset["stiffness"].attrs["units"] = "N/mm"
     assert any('stiffness has the unit "N/mm"' in found for found in violations(dataset))
+
+
+def test_axes_in_another_order_and_another_type_are_named(dataset: xarray.Dataset) -> None:
+    turned = dataset.assign(envelope=dataset["envelope"].transpose("time", "record"))
+    assert list(violations(turned)) == ["envelope has dimensions ('time', 'record'); they must be ('record', 'time')"]
+    single = dataset.assign(speed_rpm=dataset["speed_rpm"].astype(np.float32))
+    assert list(violations(single)) == ["speed_rpm is of type float32; it must be float64"]
 
 
 def test_lz4_is_refused_with_its_reason(dataset: xarray.Dataset) -> None:

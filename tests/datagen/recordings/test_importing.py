@@ -24,6 +24,7 @@ from datagen.errors import BadInput
 from datagen.files import places
 from datagen.files.digest import file_hash
 from datagen.inspection.check import check_corpus
+from datagen.inspection.conformity import violations
 from datagen.inspection.info import corpus_info
 from datagen.recordings.listing import Request
 from datagen.recordings.recorded import Recorded, read_recording
@@ -169,6 +170,22 @@ def test_what_is_not_said_is_unknown_and_absent(bring: Bring, mat: Mat, tmp_path
     absent = {"envelope", "stiffness", "scenario", "balls", "bridged", "pass_record", "defect_record"}
     assert not held & absent
     assert check_corpus(tmp_path / "corpus").sound
+
+
+def test_a_shard_of_recordings_may_leave_labels_open_and_nothing_else(bring: Bring, mat: Mat) -> None:
+    mat("a.mat")
+    corpus = bring('[[recording]]\nname = "all"\nfiles = "a.mat"\nunit = "g"\nrate_hz = 1000\ny = "sig"\n')
+    with xarray.open_dataset(corpus.folder / "shards" / "shard_000000.nc") as opened:
+        dataset = opened.load()
+    assert "spalls" not in dataset
+    assert np.isnan(dataset["speed_rpm"].values).all()
+    assert list(violations(dataset)) == []
+    for name in ("speed_rpm", "location", "acceleration", "provenance"):
+        assert f"{name} is missing" in list(violations(dataset.drop_vars(name)))
+    for name, value in (("speed_rpm", np.inf), ("acceleration", np.nan)):
+        changed = dataset.copy(deep=True)
+        changed[name].values.flat[0] = value
+        assert list(violations(changed)) == [f"{name} has 1 values that are not finite"]
 
 
 @pytest.mark.parametrize(

@@ -170,6 +170,8 @@ def test_a_dataset_made_by_the_format_breaks_none_of_its_rules(dataset: xarray.D
         ("extent", 0.0, "condition and extent disagree"),
         ("envelope_band", 250.0, "envelope_band is not below half the rate"),  # up to 200 Hz
         ("tension_share", 1.5, "tension_share is not a share"),
+        ("tension_share", -0.1, "tension_share is not a share"),
+        ("record", 9, "a record occurs twice"),
         ("duration_s", 0.3, "duration_s = 0.3 does not fit 200 samples"),  # 0.2 s
         ("defect_record", 9, "the defect table and the label spalls disagree"),  # which is healthy
         ("pass_record", 77, "a ball pass belongs to no record"),

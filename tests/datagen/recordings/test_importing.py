@@ -8,6 +8,7 @@ import subprocess
 import sys
 import wave
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import netCDF4
@@ -177,6 +178,8 @@ def test_a_shard_of_recordings_may_leave_labels_open_and_nothing_else(bring: Bri
     corpus = bring('[[recording]]\nname = "all"\nfiles = "a.mat"\nunit = "g"\nrate_hz = 1000\ny = "sig"\n')
     with xarray.open_dataset(corpus.folder / "shards" / "shard_000000.nc") as opened:
         dataset = opened.load()
+    assert dataset.attrs["title"] == "mine"  # the name, as there is no title
+    assert not {"license", "references"} & set(dataset.attrs)  # of which nothing is said
     assert "spalls" not in dataset
     assert np.isnan(dataset["speed_rpm"].values).all()
     assert list(violations(dataset)) == []
@@ -680,20 +683,35 @@ def test_what_killed_imports_of_the_name_left_is_swept_and_nothing_else(bring: B
     gone = subprocess.Popen([sys.executable, "-c", ""])
     gone.wait()
     host = socket.gethostname()
-    dead = tmp_path / f".corpus.{host}.{gone.pid}.part"
+    dead = [tmp_path / f".corpus.{host}.{number}.part" for number in (gone.pid, 10**30)]  # no process has the latter
     others = [
         tmp_path / f".corpus.{host}.{os.getppid()}.part",  # of a process that lives
         tmp_path / f".corpus.elsewhere{host}.{gone.pid}.part",  # of another computer, whose processes are unknown
         tmp_path / f".other.{host}.{gone.pid}.part",
+        tmp_path / f".corpus-{host}-{gone.pid}.part",
         tmp_path / f".corpus.{host}.mine.part",
     ]
-    for path in (dead, *others):
+    for path in (*dead, *others):
         (path / "shards").mkdir(parents=True)
     mat("a.mat")
     bring('[[recording]]\nname = "a"\nfiles = "a.mat"\ny = "sig"\nunit = "g"\nrate_hz = 1000\n')
-    assert not dead.exists()
+    assert not any(path.exists() for path in dead)
     assert all(path.is_dir() for path in others)
     assert sorted(tmp_path.glob(".*")) == sorted(others)
+
+
+def test_what_the_import_of_another_user_fills_is_left(
+    bring: Bring, mat: Mat, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def forbidden(*_: int) -> None:
+        raise PermissionError(errno.EPERM, "Operation not permitted")
+
+    monkeypatch.setattr(os, "kill", forbidden)
+    others = tmp_path / f".corpus.{socket.gethostname()}.{os.getppid()}.part"
+    others.mkdir()
+    mat("a.mat")
+    assert len(bring(SPEC)) == 1
+    assert others.is_dir()
 
 
 def test_what_an_import_of_the_same_number_left_is_in_nobodys_way(bring: Bring, mat: Mat, tmp_path: Path) -> None:
@@ -749,6 +767,19 @@ def test_a_recording_that_cannot_be_read_again_is_named_and_not_the_folder_that_
     with pytest.raises(OSError, match=r"Input/output error: 'a\.mat'"):
         bring(SPEC)
     assert len(asked) == 2
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["a.mat", "spec.toml"]
+
+
+def test_a_recording_that_says_something_else_when_it_is_read_again_is_refused(
+    bring: Bring, mat: Mat, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def read_changed(request: Request) -> Iterator[Recorded]:
+        return (replace(record, content="another") for record in read_recording(request))
+
+    mat("a.mat")
+    monkeypatch.setattr("datagen.recordings.importing.read_recording", read_changed)
+    with pytest.raises(BadInput, match=r"a\.mat: the file changed while it was being imported"):
+        bring(SPEC)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["a.mat", "spec.toml"]
 
 

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 from command_line import run
 
+from datagen.corpus_files.manifest import manifest_path
 from datagen.drawing.portrait_sources import recipe_portrait
 from datagen.errors import BadInput
 from datagen.recipes.recipe import Recipe, load_recipe, parse_recipe
@@ -98,6 +99,7 @@ def test_parts_of_which_some_records_are_possible_are_made(tmp_path: Path) -> No
     one = possible.index(False)
     with pytest.raises(BadInput, match="a rate of 500 Hz has to be raised"):
         require_possible_rates(recipe, ((one, one + 1),))
+    assert record_memory(draw_scenario(recipe, one), ()) > 0.0
     require_possible_rates(recipe, ((0, 20),))
     said: list[str] = []
     plan_shards(recipe, 20, said.append)
@@ -112,6 +114,8 @@ def test_the_rate_that_would_do_for_all_is_that_of_the_fastest_rig_wherever_it_c
     parts = [{"name": rig, "records": 1, "machine": {"rig": rig}} for rig in rigs]
     signal = {"rate_hz": 200, "duration_s": 1, "envelope_band_hz": (10, 40)}
     recipe = parse_recipe({"name": "a", "seed": 1, "signal": signal, "part": parts}, Path("recipe.toml"))
+    with pytest.raises(BadInput, match=f'part "{rigs[1]}": a rate of 200 Hz has to be raised'):
+        require_possible_rates(recipe, ((1, 2),))  # of the first part nothing is asked
     rates = TooLowRates()
     for record in range(2):
         rates.add(draw_scenario(recipe, record))
@@ -131,6 +135,23 @@ def test_a_record_that_no_memory_holds_is_refused_before_it_is_drawn(
     assert "allowed: at most about 2.2e+03 s at 32768 Hz" in message  # 16e9 bytes of 220 a sample
 
 
+def test_what_settles_before_a_record_takes_memory_too(refused: Refused, monkeypatch: pytest.MonkeyPatch) -> None:
+    # 220 bytes for each of 32 768 samples a second: 0.4 MB for the record alone, 0.7 MB with as much before it.
+    monkeypatch.setattr("datagen.runs.requirements.memory_bytes", lambda: 5e5)
+    monkeypatch.setattr("datagen.runs.requirements.draw_scenario", None)
+    assert "needs about 0.7 MB of memory" in refused(
+        TEXT.replace("duration_s = 0.05", "duration_s = 0.05\nsettle_s = 0.05")
+    )
+
+
+def test_a_drawn_record_that_no_memory_holds_is_refused_though_the_shortest_fits(
+    refused: Refused, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("datagen.runs.requirements.memory_bytes", lambda: 5e6)
+    message = refused(TEXT.replace("0.05", "{choice = [0.05, 100.0], weights = [0.001, 0.999]}"))
+    assert "a record of 3.28e+06 samples needs about" in message
+
+
 def test_a_shard_that_no_memory_holds_is_refused_with_a_smaller_one(
     refused: Refused, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -147,6 +168,18 @@ def test_a_record_that_the_disk_does_not_hold_is_refused(refused: Refused, monke
     message = refused(TEXT.replace("0.05", "10"))
     needed, free = re.findall(r"one record needs about ([\d.]+) MB of disk space; ([\d.]+) MB are free", message)[0]
     assert float(needed) > float(free) == 1.0
+
+
+def test_a_corpus_that_is_there_needs_no_disk_for_another_record(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "recipe.toml").write_text(TEXT)
+    recipe = load_recipe(tmp_path / "recipe.toml")
+    monkeypatch.setattr("datagen.runs.requirements.shutil.disk_usage", lambda _: type("Disk", (), {"free": 1000})())
+    with pytest.raises(BadInput, match="disk space"):
+        require_room(recipe, plan_shards(recipe, 3), tmp_path)
+    manifest_path(tmp_path).touch()
+    require_room(recipe, plan_shards(recipe, 3), tmp_path)
 
 
 def test_a_preview_is_held_to_the_same_memory(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -202,7 +235,9 @@ def test_the_largest_shard_allowed_fits_beside_the_record_that_is_being_made(
     with pytest.raises(BadInput) as caught:
         require(300)
     most = int(re.findall(r"at most (\d+)", str(caught.value))[0])
+    needed = float(re.findall(r"a shard of 300 records needs about ([\d.]+) MB", str(caught.value))[0])
     recipe = require(most)
     shard = plan_shards(recipe, 1)[0]
     record = record_memory(draw_scenario(recipe, 0), shard.stored)
+    assert needed == pytest.approx(300 * 4.0 * shard.raw_bytes / 1e6, abs=0.05)  # one decimal
     assert most * 4.0 * shard.raw_bytes + record <= 4e6 < (most + 1) * 4.0 * shard.raw_bytes + record

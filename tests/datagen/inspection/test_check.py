@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 from collections.abc import Callable
 from pathlib import Path
 
@@ -115,6 +116,27 @@ def test_a_missing_shard_and_one_without_sidecar_are_found(copy: Path) -> None:
     assert "shard_000000.nc: missing" in problems
     assert "shard_000001.nc: unfinished: the sidecar that vouches for it is missing" in problems
     assert "records asked for are missing" in problems
+
+
+def test_a_shard_that_is_gone_with_its_sidecar_is_found_in_the_manifest(copy: Path) -> None:
+    shard_path(copy, 3).unlink()
+    sidecar_path(copy, 3).unlink()
+    assert "shards/shard_000003.nc: missing, but listed in manifest.json" in check_corpus(copy).problems
+
+
+def test_a_shard_too_many_is_swept_by_another_run(copy: Path) -> None:
+    shutil.copyfile(shard_path(copy, 0), shard_path(copy, 99))
+    verdict = check_corpus(copy)
+    assert verdict.problems == ("shards/shard_000099.nc: unfinished: the sidecar that vouches for it is missing",)
+    assert verdict.remedy.startswith("to mend it, run `spallgen generate` again")
+
+
+def test_a_place_that_a_shard_does_not_have_is_found_in_the_index_and_written_anew(copy: Path) -> None:
+    text = (copy / "index.csv").read_text()
+    (copy / "index.csv").write_text(text.replace("shard_000000.nc,1\n", "shard_000000.nc,5\n"))
+    verdict = check_corpus(copy)
+    assert verdict.problems == ("shards/shard_000000.nc: index.csv disagrees about its records",)
+    assert verdict.remedy.startswith("to mend it, run `spallgen generate` again")
 
 
 def test_a_record_that_two_shards_hold_is_found(copy: Path) -> None:

@@ -14,6 +14,7 @@ from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import joblib
@@ -556,11 +557,20 @@ def test_a_run_loads_no_package_that_is_slow_to_load_and_that_it_does_not_need(n
     assert done.stdout == "[]\n"
 
 
+@pytest.mark.parametrize(("free", "warned"), [(1e6, False), (1e5, True)])
 def test_a_run_says_beforehand_what_disk_it_needs(
-    tiny: Recipe, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    free: float,
+    warned: bool,
+    tiny: Recipe,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
+    monkeypatch.setattr("datagen.runs.run.shutil.disk_usage", lambda _: SimpleNamespace(free=free))
     generate(tiny, tmp_path / "out", limit=1, engine=ALONE, listener=Listener(say=Lines().say))
-    assert "1 record in 1 shard to make; they will need about" in capsys.readouterr().err
+    said = capsys.readouterr().err
+    assert "1 record in 1 shard to make; they will need about" in said
+    assert ("the disk will be full before the end" in said) == warned
 
 
 def test_a_dask_scheduler_that_does_not_answer_is_refused_before_anything_is_written(

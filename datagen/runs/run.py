@@ -258,6 +258,5 @@ def _time_limit(todo: Sequence[PlannedShard]) -> float:
 def _left_to_make(todo: Sequence[PlannedShard], needed: str = "") -> str:
     """What a run that stopped before its end leaves to the next, and what that needs."""
     records = sum(len(shard.records) for shard in todo)
-    return (
-        f"{records} records have not been made{needed}; finished shards are kept; the same command continues from there"
-    )
+    not_made = f"{counted(records, 'record')} {'has' if records == 1 else 'have'} not been made"
+    return f"{not_made}{needed}; finished shards are kept; the same command continues from there"

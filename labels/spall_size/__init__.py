@@ -1,5 +1,11 @@
 """How long a spall is, from one record of vibration: event times, their lag, and the arc that goes with it.
 
+What an estimate does from start to end (`estimation.gathering`, then `estimation.estimator`): the record is
+prewhitened; ball passes are tracked for either race, and the clearer race is taken; passes are lined up and averaged;
+places in the mean pass where events may be are paired; trees score all pairs and rank the leading ones by more
+evidence; the first of them is taken for the events if the error to be expected of its lag is small enough; lag and arc
+are corrected by what was learned, and get their intervals.
+
 - `situation`: what the person asking knows; `size_estimate`: the answer
 - `static_release`: from lag to length; `known_size`: better with a measured spall
 - `event_truth`: the events of simulated records, to compare with

@@ -34,6 +34,8 @@ SMALLEST_ERROR = 1e-300  # of a method that is its own reference
 QUICK_DURATION, QUICK_STEPS = 0.2, 32
 PART, PART_PASSES = 0.05, 1.1
 SLOW_SECONDS = 0.5
+# What is fast is repeated for this long (s) at least: other users of a machine slow it for moments.
+LEAST_SECONDS = 0.1
 TARGET = 1e-3
 RIVAL = "numbalsoda"
 
@@ -179,7 +181,8 @@ def _run(contestant: Contestant, subject: Subject, scene: Scene, reference: Resp
 
 
 def timed(contestant: Contestant, scene: Scene, rate: float, rounds: int) -> tuple[float, object]:
-    """Median processor time (s), and the result; what takes long is run once.
+    """Median processor time (s) of the rounds, or of more where these are short, and the result; what takes long is run
+    once.
 
     A first run pays for memory and code that only a whole record needs, so that it does not count where it is short.
     """
@@ -193,7 +196,7 @@ def timed(contestant: Contestant, scene: Scene, rate: float, rounds: int) -> tup
     if first >= SLOW_SECONDS:
         return first, result
     seconds: list[float] = []
-    while len(seconds) < rounds and sum(seconds) < SLOW_SECONDS:
+    while sum(seconds) < (SLOW_SECONDS if len(seconds) < rounds else LEAST_SECONDS):
         spent, result = once()
         seconds.append(spent)
     return statistics.median(seconds), result

@@ -26,7 +26,8 @@ def chart(
     ] = None,
     quick: Annotated[bool, typer.Option("--quick", help="Few settings, 0.2 s of signal, no slow reference.")] = False,
     rounds: Annotated[
-        int, typer.Option(metavar="N", min=1, help="How often each run is repeated; the median counts.")
+        int,
+        typer.Option(metavar="N", min=1, help="How often each run is repeated, at least; the median counts."),
     ] = 5,
     stability: Annotated[
         bool, typer.Option("--stability", help="Map where the methods fail, instead of a scene.")

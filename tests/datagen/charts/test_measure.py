@@ -59,6 +59,15 @@ def test_what_is_timed_has_been_run_whole_before_unless_that_is_slow(monkeypatch
     assert durations == [0.5] * 5
 
 
+def test_what_is_short_is_repeated_until_a_tenth_of_a_second_is_spent(monkeypatch):
+    durations = []
+    clock = (0.03 * ((k + 1) // 2) for k in range(20))
+    monkeypatch.setattr(measuring.time, "process_time", lambda: next(clock))
+    one = entrants.Contestant("g", "n", "s", lambda scene, rate: durations.append(scene.duration), lambda *_: None)
+    assert measuring.timed(one, reference_scene("F1", 0.5), RATE, rounds=2)[0] == pytest.approx(0.03)
+    assert durations == [0.5] * (1 + 4)
+
+
 def test_a_chart_says_what_each_method_and_model_on_it_is_for_and_where_it_holds(small_chart):
     assert {run.name for run in small_chart.runs} < set(small_chart.contracts)
     assert small_chart.contracts["exponential_rk4"]["order"] == 4.0

@@ -12,20 +12,18 @@ from dataclasses import replace
 
 import numpy as np
 
-from physics._jit import compile_for, discard_cache, is_cached, raised_by_cache
+from physics._jit import discard_cache, is_cached, raised_by_cache
 from physics.assembly import assemble
 from physics.backgrounds.tones import tones
 from physics.cage import CagePath
 from physics.catalog import rig
 from physics.contact.forces import Contacts
 from physics.contact_events import contact_events
-from physics.integrators.modal.changes import look
 from physics.integrators.modal.flow import AMPLITUDES, LinearFlow, linear_flow
 from physics.integrators.modal.memory import STRIDES, Memory, ModalGrid, memory_for
 from physics.integrators.modal.modal_march import begin, march_modal
 from physics.integrators.modal.tables import empty_tables, tables_for
 from physics.integrators.output import Output
-from physics.integrators.trial import Trial
 from physics.motion import motion_model
 from physics.operation import Operation
 from physics.paths.profile import race_depth
@@ -52,16 +50,13 @@ MARCHING = "import gc; gc.disable(); from physics.warming import compile_march; 
 def warm_up() -> None:
     """Compile every kernel that records need, or load it from the cache; a cache damaged by a crash is made again.
 
-    Where the march is not compiled and there are two processors, a second process compiles it, which takes as long as
-    all else and one of its parts that it comes to late.
+    Where the march is not compiled and there are two processors, a second process compiles it beside all else. Parts
+    that only the march calls are left to that process: built around parts that another has compiled, the march is up to
+    a third slower.
     """
     if not is_warm() and (os.cpu_count() or 1) > 1:
         with _march_compiled_beside():
-            scene = _scene()
-            # It shares nothing with the march, which meanwhile compiles what it has in common with the location.
-            require_equilibrium(scene, np.zeros(1))
-            compile_location()
-            _use_kernels_beside_the_march(scene)
+            _use_kernels_beside_the_march(_scene())
     try:
         _use_every_kernel()
     except Exception as error:
@@ -82,14 +77,6 @@ def compile_march() -> None:
     scene = replace(_scene(), spalls=())
     contacts, flow, grid, memory, output = _before_a_march(scene)
     march_modal(contacts, flow, grid, known_kinks(scene, contacts), memory, output)
-
-
-def compile_location() -> None:
-    """Compile the part of the modal march that locates changes of contact."""
-    contacts, flow, grid, memory, output = _before_a_march(_scene())
-    now, then = memory.states
-    trial = Trial(time=0.0, step=0.0, now=now, force=(0.0, 0.0), then=then, after=(0.0, 0.0), halfway=0)
-    compile_for(look, contacts, flow, grid, memory, 1, trial, True, True, output)
 
 
 def _before_a_march(scene: Scene) -> tuple[Contacts, LinearFlow, ModalGrid, Memory, Output]:

@@ -7,7 +7,6 @@
 
 from physics._jit.cache import CACHE_FOLDER, discard_cache, fingerprint, is_cached, raised_by_cache
 from physics._jit.decorators import (
-    compile_for,
     njit,
     njit_inline,
     njit_inner,
@@ -19,7 +18,6 @@ from physics._jit.decorators import (
 
 __all__ = [
     "CACHE_FOLDER",
-    "compile_for",
     "discard_cache",
     "fingerprint",
     "is_cached",

@@ -68,14 +68,6 @@ def specialise(template: Callable[..., Any], name: str, **bindings: Any) -> Call
     return njit(copy)
 
 
-def compile_for(kernel: Callable[..., Any], *arguments: Any) -> None:
-    """Compile a kernel for `arguments` of these types, or load it from the cache, without calling it."""
-    compiled: Any = kernel
-    # With NUMBA_DISABLE_JIT set, a kernel is its Python function, and there is nothing to compile.
-    if hasattr(compiled, "py_func"):
-        compiled.compile(tuple(numba.typeof(argument) for argument in arguments))
-
-
 def uncompiled(kernel: Callable[..., Any]) -> Callable[..., Any]:
     """The Python function behind a compiled one, to be specialised anew."""
     compiled: Any = kernel

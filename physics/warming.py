@@ -50,9 +50,7 @@ MARCHING = "import gc; gc.disable(); from physics.warming import compile_march; 
 def warm_up() -> None:
     """Compile every kernel that records need, or load it from the cache; a cache damaged by a crash is made again.
 
-    Where the march is not compiled and there are two processors, a second process compiles it beside all else. Parts
-    that only the march calls are left to that process: built around parts that another has compiled, the march is up to
-    a third slower.
+    Where the march is not compiled and there are two processors, a second process compiles it beside all else.
     """
     if not is_warm() and (os.cpu_count() or 1) > 1:
         with _march_compiled_beside():

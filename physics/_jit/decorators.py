@@ -14,6 +14,9 @@ Kernel = TypeVar("Kernel", bound=Callable[..., Any])
 _decorator: Any = numba.njit
 USUAL: dict[str, Any] = {"cache": True, "error_model": "numpy", "nogil": True, "no_cfunc_wrapper": True}
 LEAN: dict[str, Any] = {**USUAL, "_nrt": False}
+# A kernel around a part that was read from the disk is other machine code than around one compiled with it, and up to a
+# third slower. So parts are not kept: what is kept of a kernel holds them.
+PART: dict[str, Any] = {**LEAN, "cache": False, "no_cpython_wrapper": True}
 
 
 def njit(kernel: Kernel) -> Kernel:
@@ -31,12 +34,12 @@ def njit_inner(kernel: Kernel) -> Kernel:
 
     A kernel that takes dozens of arrays compiles in half the time without code that unpacks them from Python objects.
     """
-    return cast(Kernel, _without_door(_decorator(**LEAN, no_cpython_wrapper=True)(kernel)))
+    return cast(Kernel, _without_door(_decorator(**PART)(kernel)))
 
 
 def njit_inline(kernel: Kernel) -> Kernel:
     """Like `njit_inner`, and inlined by the compiler, which spares passing every array as a dozen arguments."""
-    return cast(Kernel, _without_door(_decorator(**LEAN, no_cpython_wrapper=True, forceinline=True)(kernel)))
+    return cast(Kernel, _without_door(_decorator(**PART, forceinline=True)(kernel)))
 
 
 def njit_pasted(kernel: Kernel) -> Kernel:

@@ -190,10 +190,38 @@ def test_a_kernel_is_cached_once_it_is_compiled_not_once_it_or_another_one_is_de
 
 
 OUTPUT = {"capture_output": True, "text": True, "check": True}
-CUT_INSIDE = """
-from physics._jit import njit, njit_inner, raised_by_cache
+PARTS = """
+from physics._jit import njit, njit_inline, njit_inner
 
 @njit_inner
+def square(x):
+    return x * x
+
+@njit_inline
+def fourth(x):
+    return square(square(x))
+
+@njit
+def fifth(x):
+    return x * fourth(x)
+
+print(fifth(2.0), sum(square.stats.cache_hits.values()), sum(fifth.stats.cache_hits.values()))
+"""
+
+
+def test_parts_are_kept_inside_the_kernels_that_call_them_and_nowhere_else(tmp_path):
+    # A kernel built around a part that was read from the disk is other machine code, which may be slower.
+    environment = {**os.environ, "SPALLGEN_CACHE": str(tmp_path / "cache"), "PYTHONPATH": str(PACKAGE.parent)}
+    (script := tmp_path / "kernel.py").write_text(PARTS, encoding="utf-8")
+    answers = [subprocess.run([sys.executable, str(script)], env=environment, **OUTPUT).stdout for _ in range(2)]
+    assert answers == ["32.0 0 0\n", "32.0 0 1\n"]
+    assert {file.name.split("-")[0] for file in tmp_path.rglob("*.nbc")} == {"kernel.fifth"}
+
+
+CUT_INSIDE = """
+from physics._jit import njit, njit_lean, raised_by_cache
+
+@njit_lean
 def square(x):
     return x * x
 

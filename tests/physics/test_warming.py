@@ -74,21 +74,6 @@ def test_the_march_that_is_compiled_on_its_own_is_the_one_that_records_need() ->
     assert done.stdout == "1\n"
 
 
-BESIDE = """
-from physics.integrators.modal.changes import look
-from physics.integrators.modal.location import locate
-from physics.warming import _scene, _use_kernels_beside_the_march
-
-_use_kernels_beside_the_march(_scene())
-print(len(look.signatures), len(locate.signatures))
-"""
-
-
-def test_parts_that_only_the_march_calls_are_compiled_by_no_other_process() -> None:
-    done = subprocess.run([sys.executable, "-c", BESIDE], capture_output=True, text=True, check=True)
-    assert done.stdout == "0 0\n"  # a march built around parts from the cache is slower
-
-
 @pytest.mark.parametrize("damaged", [True, False])
 def test_only_a_damaged_cache_is_discarded(damaged, monkeypatch) -> None:
     done = []

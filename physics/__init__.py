@@ -1,5 +1,8 @@
 """Bearing physics: geometry, contact, statics, motion. Reads no file and knows no other package of this project.
 
+[P14] in docstrings is Petersen, Howard, Sawalhi, Moazen Ahmadi and Singh, Mechanical Systems and Signal Processing,
+2014 (README, Sources).
+
 What a machine is, put together in a `scene`:
 
 - `bearing`, with `hertz` (how stiff and how wide a contact is), `rating` (static load rating) and `orders` (how often

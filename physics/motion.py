@@ -78,7 +78,7 @@ def resonator_acceleration(motion: MotionModel, state: Array, axis: int) -> floa
 
 @njit_lean
 def outer_ring_acceleration(motion: MotionModel, state: Array, axis: int, force: float) -> float:
-    """Acceleration of the outer ring along one axis, m/s², under the contact force (N) on it [P14 Eq. 13-14]."""
+    """Acceleration of the outer ring along one axis, m/s², under the contact force (N) on it [P14 Eq. 11, 13-15]."""
     outer = force - motion.support_stiffness[axis] * state[2 + axis] - motion.support_damping[axis] * state[8 + axis]
     outer -= motion.resonator_mass * resonator_acceleration(motion, state, axis)
     return outer / motion.outer_mass

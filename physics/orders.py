@@ -1,4 +1,4 @@
-"""How often balls pass and parts turn where nothing slips, in orders of the shaft [P14 Eq. 1].
+"""How often balls pass and parts turn where nothing slips, in orders of the shaft: the kinematics of pure rolling.
 
 `diameter_ratio` is Db cos α / Dp, `balls` those of one row.
 """
@@ -7,7 +7,7 @@ from __future__ import annotations
 
 
 def cage_order(diameter_ratio: float) -> float:
-    """Turns of the cage (FTF)."""
+    """Turns of the cage (FTF) [P14 Eq. 1]."""
     return 0.5 * (1.0 - diameter_ratio)
 
 

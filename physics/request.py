@@ -46,7 +46,8 @@ class FixedSteps:
     """The nonlinear model by `substeps` steps a sample of a `method` of integrators.method_table.MARCHES.
 
     `substeps`: 1 to 1024, or None for the fewest that are stable and resolve the fastest mode.
-    `estimate_error`: a second response, at half the step, says what error was made.
+    `estimate_error`: a second response says what error was made: at half the step or, where balls pass a taper or floor
+    within a step, at a shorter one or by `exponential_rk4`.
 
     Raises InvalidParameter for a number of steps out of range or another method.
     """

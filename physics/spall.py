@@ -24,8 +24,9 @@ PROFILES = ("tukey", "ball_path", "table")
 DEEPEST = 1e-2
 # The first and the last are 0; fewer than two between them cannot go up and down.
 FEWEST_ROUGHNESS_VALUES = 4
-# Share of an arc that is rounding: so far tapers may exceed a spall, spalls that touch overlap, and an extended one
-# fall short of the ball spacing; a table's, whose degrees come from a file, may reach beyond a spall by the second.
+# Shares of an arc that count as rounding. By the first, tapers may exceed a spall, neighbouring spalls overlap, and an
+# extended one fall short of the ball spacing; by the second, a table, whose degrees come from a file, may reach beyond
+# its spall.
 ARC_ROUNDING, TABLE_ROUNDING = 1e-12, 1e-9
 
 
@@ -44,8 +45,8 @@ class Spall:
     steps from entry edge to exit edge (m, drawn once by whoever draws the scene; empty: smooth).
 
     A taper of zero is a step without slope. The film, whose force is c_d times the rate of compression, gives no
-    impulse there, but c_d `depth` over any taper however short. So under tukey the response to ever shorter tapers does
-    not tend to that without one; a taper of 0.001 degrees has their limit. Beside tapers the path follows
+    impulse there, but c_d cos²α `depth` over any taper however short. So under tukey the response to ever shorter
+    tapers does not tend to that without one; a taper of 0.001 degrees has their limit. Beside tapers the path follows
     `roughness_values` to 1e-10 m, unless they jump by many times what drawn ones do from step to step.
 
     InvalidParameter unless `race`, `row` and `profile` are as above, the extent is above 0 and π at most, depths are

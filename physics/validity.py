@@ -144,17 +144,18 @@ def _ball_inertia(scene: Scene, peak: float) -> str:
 
 
 def _steps(scene: Scene) -> str:
-    damping = scene.rig.film_damping
+    radial_damping = scene.rig.film_damping * math.cos(scene.rig.bearing.contact_angle) ** 2
     steps = [
         spall.depth
         for spall in scene.spalls
         if spall.profile == "tukey" and min(spall.entry_taper, spall.exit_taper) == 0.0
     ]
-    if damping == 0.0 or max(steps, default=0.0) == 0.0:
+    if radial_damping == 0.0 or max(steps, default=0.0) == 0.0:
         return ""
     return (
         f"an edge without taper is a step that the film does not feel, though over any taper, however short, it gives "
-        f"an impulse of {damping * max(steps):.3g} N s (damping times depth): a short taper has another response"
+        f"an impulse of {radial_damping * max(steps):.3g} N s (radial damping times depth): a short taper has another "
+        f"response"
     )
 
 

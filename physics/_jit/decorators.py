@@ -43,7 +43,7 @@ def njit_inline(kernel: Kernel) -> Kernel:
 
 
 def njit_pasted(kernel: Kernel) -> Kernel:
-    """Like `njit_inline` for a part that only one kernel calls: pasted into it before it is compiled at all."""
+    """A part whose code is pasted into each kernel that calls it before that is compiled at all; for few callers."""
     return cast(Kernel, _decorator(**USUAL, inline="always")(kernel))
 
 

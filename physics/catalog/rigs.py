@@ -88,7 +88,7 @@ FAN = CatalogRig(
 
 
 def _film(value: float) -> Sourced:
-    return assumed(value, "N s/m", "puts the bearing's damping at 0.25 to 2.5e-5 of its stiffness (Petersen et al.)")
+    return assumed(value, "N s/m", "puts the bearing's damping at 0.25e-5 to 2.5e-5 s times its stiffness (Petersen)")
 
 
 def _resonator_stiffness(value: float, hertz: str) -> Sourced:

@@ -32,7 +32,7 @@ from physics.contact.track import (
     place_of,
     spall_under,
     wave_cell,
-    waves_per_radian,
+    wave_cells_per_radian,
     waviness_at,
 )
 from physics.contact.turning import cosine_sine
@@ -65,7 +65,7 @@ FRAME_COSINE, FRAME_SINE, FRAME_SPEED = range(FRAME_COLUMNS)
 
 
 class Law(NamedTuple):
-    """The contact law in radial direction: K (N/mⁿ), n, c_d (N s/m) and whether the force may pull."""
+    """The contact law in radial direction: K (N/mⁿ), n, c_d (N s/m) and whether the force may not pull."""
 
     stiffness: float
     exponent: float
@@ -138,8 +138,8 @@ def _add_waviness(contacts: Contacts, cage: int, angle: float, speed: float, tim
     at the same place within theirs."""
     balls, track, waves = contacts.balls, contacts.track, contacts.track.waviness
     row, columns = track.row_size, np.uint64(waves.shape[2] // WAVE_COEFFICIENTS)
-    pace = speed * waves_per_radian(track)
-    inner_pace = pace - track.shaft_speed * waves_per_radian(track)
+    pace = speed * wave_cells_per_radian(track)
+    inner_pace = pace - track.shaft_speed * wave_cells_per_radian(track)
     for first in range(0, balls.shape[2] - row + 1, row):
         outer, outer_spacing, x = wave_cell(track, angle + balls[cage, PLACE, first])
         inner, inner_spacing, z = wave_cell(track, angle + balls[cage, PLACE, first] - track.shaft_speed * time)

@@ -80,11 +80,11 @@ def wave_at(track: Track, race: int, angle: float) -> tuple[float, float]:
     for power in range(WAVE_COEFFICIENTS):
         slope = slope * x + depth
         depth = depth * x + track.waviness[race, cell, spacing + power * columns]
-    return depth, slope * waves_per_radian(track)
+    return depth, slope * wave_cells_per_radian(track)
 
 
 @njit_inline
-def waves_per_radian(track: Track) -> float:
+def wave_cells_per_radian(track: Track) -> float:
     """Cells of the waviness a radian."""
     return track.row_size * track.waviness.shape[1] * TURNS_PER_RADIAN
 

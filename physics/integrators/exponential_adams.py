@@ -7,8 +7,8 @@ method restarts with steps of the exponential Runge-Kutta method of order 4. It 
 longer holds the break itself, where the force starts like a root. Not to be confused with Adams methods for the whole
 state, whose step the resonator would limit.
 
-The state is longer by eleven: order, length and end time of the step before, a mark of its contact set, how many past
-forces are known, and the last three of them, two numbers each.
+The state is longer by eleven: order, length and end time of the step before, a mark of its contact set, how many equal
+steps were made since the last break (four at most), and the last three of them, two numbers each.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from physics.motion import MotionModel, outer_load
 ORDERS = (2, 3, 4)
 # Places in the longer state.
 ORDER, LENGTH, END, CONTACTS, KNOWN, PAST = 12, 13, 14, 15, 16, 17
-CARRIED = PAST + 6
+STATE_SIZE = PAST + 6
 # Shares of the step below which lengths and times are the same.
 SAME = 1e-9
 Cubic = tuple[float, float, float, float]
@@ -153,6 +153,6 @@ _march = bind_method("exponential_adams", step_exponential_adams)
 
 def march_of_order(order: int) -> Callable[..., int]:
     """The march of the method of `order` 2, 3 or 4, from the state (12,) at t = 0."""
-    carried = np.zeros(CARRIED - ORDER)
+    carried = np.zeros(STATE_SIZE - ORDER)
     carried[0] = order
     return carrying(_march, carried)

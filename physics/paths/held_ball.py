@@ -37,8 +37,8 @@ class Held(NamedTuple):
     drop: Array
 
     def take(self, at: Index, other: Held, deeper: float) -> int:
-        """Take over what holds balls at these numbers (N,) of the arcs less than so much `deeper` (m); how many it
-        holds."""
+        """At the arcs numbered `at` (N,), take over what holds the ball there by `other` where its drop exceeds the
+        present one by less than `deeper` (m); how many were taken over."""
         holds = other.drop < self.drop[at] + deeper
         for mine, found in zip(self, other, strict=True):
             mine[at[holds]] = found[holds]

@@ -6,6 +6,8 @@ forces of kilonewtons then cancels to the last digit, and no method tells the re
 
 from __future__ import annotations
 
+import math
+
 from physics.scene import Scene
 
 # Share of the sum of all forces that no method vouches for: rounding of each, with room for the resonances' gain.
@@ -18,7 +20,8 @@ def largest_forces(scene: Scene) -> float:
     bearing, imperfect, run = scene.rig.bearing, scene.imperfections, scene.operation
     load = abs(run.load) * (1.0 + run.load_fluctuation) + run.unbalance_force
     proud = sum(wave.amplitude for wave in imperfect.waviness)
-    proud += max((deviation for row in imperfect.ball_deviation for deviation in row), default=0.0)
+    proud_ball = max((deviation for row in imperfect.ball_deviation for deviation in row), default=0.0)
+    proud += proud_ball / math.cos(bearing.contact_angle)
     pressed = bearing.radial_load_deflection * max(0.0, proud - bearing.clearance) ** bearing.exponent
     return load + bearing.rows * bearing.balls * pressed
 

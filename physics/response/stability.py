@@ -38,7 +38,7 @@ def limiting_modes(rig: Rig, limits: str, stiffness: Array, damping: Array) -> N
     first_order[:size, size:] = np.eye(size)
     first_order[size:, :size] = -np.linalg.solve(mass, k)
     first_order[size:, size:] = -np.linalg.solve(mass, c)
-    # Rates grow as step sizes shrink: both are brought to the same unit before the eigenvalues are sought.
+    # Displacements and velocities are brought to like size: eigenvalues of a badly scaled matrix lose digits.
     unit = math.sqrt(float(np.abs(first_order[size:, :size]).max())) or 1.0
     first_order[:size, size:] *= unit
     first_order[size:, :size] /= unit

@@ -243,10 +243,13 @@ def test_an_edge_without_taper_is_out_of_range(gearbox):
     assert "inertia of a ball" in inertia
     # 100 N s/m of the gearbox rig times 12 µm
     assert film.startswith("an edge without taper is a step that the film does not feel")
-    assert "an impulse of 0.0012 N s (damping times depth)" in film
+    assert "an impulse of 0.0012 N s (radial damping times depth)" in film
     shallow, one_edge = dataclasses.replace(line(2.0, 0.0, 0.0), depth=3e-6), line(2.0, 0.0, 0.3)
     for spalls in ((one_edge,), (line(2.0, 0.3, 0.0),), (dataclasses.replace(shallow, angle=1.0), one_edge)):
         assert any("an impulse of 0.0012 N s" in note for note in assess(scene_of(gearbox, spalls)))
+    steep = dataclasses.replace(gearbox.bearing, contact_angle=math.radians(40))
+    inclined = dataclasses.replace(gearbox, bearing=steep)
+    assert any("impulse of 0.000704 N s" in note for note in assess(scene_of(inclined, spalls)))  # times cos²(40°)
     dry = dataclasses.replace(gearbox, film_damping=0.0)
     assert not [note for note in assess(scene_of(dry, (line(2.0, 0.0, 0.3),))) if "film" in note]
     gap = dataclasses.replace(line(2.0, 0.0, 0.0), depth=3e-4, profile="ball_path")

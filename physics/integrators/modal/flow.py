@@ -43,7 +43,7 @@ class LinearFlow(NamedTuple):
     """Modes of both directions, as the kernels read them; amplitudes are numbered direction, pair, part.
 
     `rate` (12,) 1/s: real and imaginary part of a swinging pair's eigenvalue, or the eigenvalues of two decaying modes.
-    `twist` (6,): 1 for a swinging pair, 0 for a decaying one. `kick` (12,): amplitudes per unit of contact force.
+    `twist` (6,): 1 for a swinging pair, 0 for a decaying one. `kick` (12,): amplitudes per N s of contact force.
     `read` (11, 12): the amplitudes' shares in the readings. `stiffness`, `damping`: the spring (N/m) and damper (N s/m)
     along x and y that stand for the contacts. `jump` (1/kg): relative acceleration per unit of contact force. `rest`,
     `cosine`, `sine` (2, 11): what the loads alone do, constant and turning at `shaft_speed`. `fastest` (1/s): the
@@ -160,7 +160,7 @@ def _nearest(values: NDArray[Any]) -> float:
 
 
 def _push(motion: MotionModel, axis: int, damping: float, value: complex, shape: Sequence[complex]) -> complex:
-    """Amplitude per unit of contact force: a shape φ of symmetric M, C, K takes φᵀf / φᵀ(2λM + C)φ of a force f."""
+    """Amplitude per N s of contact force: a shape φ of symmetric M, C, K takes φᵀf / φᵀ(2λM + C)φ of a force f."""
     xi, _, xo, _, xr, _ = shape
     mass = motion.inner_mass * xi**2 + motion.outer_mass * xo**2 + motion.resonator_mass * xr**2
     film = damping * (xi - xo) ** 2 + motion.resonator_damping * (xo - xr) ** 2

@@ -9,14 +9,14 @@ POWERS = 5
 # Weights of a step along x; those along y follow at OTHER. The shares of the six amplitudes at its beginning in
 # displacement and velocity in the middle and at the end; the free turn, four numbers a pair; what a force of 1, s, s² …
 # adds to displacement and velocity in the middle and at the end, and all powers to each of the six amplitudes.
-# In the middle a power less is read. READ_TWICE: displacement and velocity.
+# In the middle a power less is read. MOTION_READINGS: displacement and velocity.
 HALF_POWERS = 4
-TURN_NUMBERS, READ_TWICE = 4, 2
-HALF, END = 0, READ_TWICE * AXIS
-TURN = END + READ_TWICE * AXIS
+TURN_NUMBERS, MOTION_READINGS = 4, 2
+HALF, END = 0, MOTION_READINGS * AXIS
+TURN = END + MOTION_READINGS * AXIS
 AT_HALF = TURN + TURN_NUMBERS * PAIRS
-AT_END = AT_HALF + READ_TWICE * HALF_POWERS
-KICKS = AT_END + READ_TWICE * POWERS
+AT_END = AT_HALF + MOTION_READINGS * HALF_POWERS
+KICKS = AT_END + MOTION_READINGS * POWERS
 OTHER = KICKS + AXIS * POWERS
 STEP_WEIGHTS = 2 * OTHER
 # Weights of a sample inside a step along x; those along y follow at INSIDE_OTHER. Each of its readings has a SECTION:

@@ -7,10 +7,10 @@ from physics.arrays import Array
 from physics.integrators.modal.flow import AXIS, DISPLACEMENT, PAIRS, VELOCITY, Motion, weigh
 from physics.integrators.modal.layout import (
     INSIDE_OTHER,
+    MOTION_READINGS,
     OTHER,
     POWERS,
     POWERS_AT,
-    READ_TWICE,
     SECTION,
     TURN_NUMBERS,
 )
@@ -72,7 +72,7 @@ def free_motion(weights: Array, first: int, start: Array, rest: Array) -> Motion
 def pushed(weights: Array, first: int, power: int, motion: Motion, force: tuple[float, float]) -> Motion:
     """Relative `motion` with what a `force` (N, N) times one power of the share of the step adds, by the weights from
     `first` on."""
-    along_x, along_y = first + READ_TWICE * power, OTHER + first + READ_TWICE * power
+    along_x, along_y = first + MOTION_READINGS * power, OTHER + first + MOTION_READINGS * power
     return (
         motion[0] + weights[along_x] * force[0],
         motion[1] + weights[along_y] * force[1],

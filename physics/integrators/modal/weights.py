@@ -20,10 +20,10 @@ from physics.integrators.modal.layout import (
     INSIDE_READINGS,
     INSIDE_TURN,
     KICKS,
+    MOTION_READINGS,
     OTHER,
     POWERS,
     POWERS_AT,
-    READ_TWICE,
     RING_PUSHED,
     SECTION,
     TURN,
@@ -53,7 +53,7 @@ def set_step(flow: LinearFlow, weights: Array, step: float, phi: Array) -> None:
         re, im, twist = 2 * pair, 2 * pair + 1, flow.twist[pair]
         double(twist, half, whole, pair)
         set_turn(weights, base + TURN + TURN_NUMBERS * own, twist, whole[0, re], whole[0, im])
-        for read in range(READ_TWICE):
+        for read in range(MOTION_READINGS):
             a, b = flow.read[DISPLACEMENT + read, re], flow.read[DISPLACEMENT + read, im]
             place = base + AXIS * read + here
             weights[place + HALF], weights[place + HALF + 1] = _read_turned(twist, a, b, half[0, re], half[0, im])
@@ -65,16 +65,16 @@ def set_step(flow: LinearFlow, weights: Array, step: float, phi: Array) -> None:
             )
             place = base + KICKS + POWERS * here + power
             weights[place], weights[place + POWERS] = real, imaginary
-            for read in range(READ_TWICE):
+            for read in range(MOTION_READINGS):
                 a, b = flow.read[DISPLACEMENT + read, re], flow.read[DISPLACEMENT + read, im]
-                weights[base + AT_END + READ_TWICE * power + read] += a * real + b * imaginary
+                weights[base + AT_END + MOTION_READINGS * power + read] += a * real + b * imaginary
             if power < HALF_POWERS:
                 real, imaginary = product(
                     twist, early * flow.kick[re], early * flow.kick[im], half[power + 1, re], half[power + 1, im]
                 )
-                for read in range(READ_TWICE):
+                for read in range(MOTION_READINGS):
                     a, b = flow.read[DISPLACEMENT + read, re], flow.read[DISPLACEMENT + read, im]
-                    weights[base + AT_HALF + READ_TWICE * power + read] += a * real + b * imaginary
+                    weights[base + AT_HALF + MOTION_READINGS * power + read] += a * real + b * imaginary
             scale *= power + 1.0
             early *= 0.5 * (power + 1.0)
 

@@ -30,7 +30,7 @@ LONGEST_STEP = 0.2
 LOOKS_PER_STEP, LOCATED_WITHIN = 8, 1e-13
 # s
 KINK_HALF_WIDTH = 1e-11
-# For each of the longest ones that would do, and so many more.
+# Steps allowed for each of the longest ones that a record has room for, and a fixed reserve.
 MOST_STEPS_PER_LONGEST, SPARE_STEPS = 200, 20_000
 
 

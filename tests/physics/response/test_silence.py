@@ -1,5 +1,6 @@
 """Responses so small that they are nothing but rounding of the contact forces."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -97,6 +98,10 @@ def test_the_largest_ball_stands_proud_as_waves_do():
     balls = ((4e-6, *(-9e-6,) * 11), (0.0,) * 12)
     both = Imperfections((Waviness("outer", 12, 1e-6),), balls)
     assert largest_forces(preloaded("G0", 0.0, 3e-6, both)) == pytest.approx(24 * machine.load_deflection * 2e-6**1.5)
+    steep = preloaded("G0", 0.0, 3e-6, Imperfections(ball_deviation=balls))
+    steep = replace(steep, rig=replace(steep.rig, bearing=replace(steep.rig.bearing, contact_angle=math.radians(60.0))))
+    # Along a normal at 60 degrees 4 µm are 8 µm of radial way, and K is K cos^2.5 60° of it.
+    assert largest_forces(steep) == pytest.approx(24 * machine.load_deflection * 0.5**2.5 * 5e-6**1.5)
     small = Imperfections(ball_deviation=((-9e-6,) * 12, (-9e-6,) * 12))
     assert largest_forces(preloaded("G0", 0.0, -8e-6, small)) == 0.0
 

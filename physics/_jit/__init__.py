@@ -2,6 +2,7 @@
 
 - `decorators`: the ways to compile a kernel
 - `cache`: where compiled kernels lie; importing this package points all of numba's caches there
+- `stack_frame`: how a large kernel reads its arguments
 - `c_callback`: a kernel as a C function, for solvers in other languages
 """
 
@@ -15,12 +16,14 @@ from physics._jit.decorators import (
     specialise,
     uncompiled,
 )
+from physics._jit.stack_frame import keep_arguments_apart
 
 __all__ = [
     "CACHE_FOLDER",
     "discard_cache",
     "fingerprint",
     "is_cached",
+    "keep_arguments_apart",
     "njit",
     "njit_inline",
     "njit_inner",

@@ -14,7 +14,7 @@ from physics.trace import ACCELERATION_ALONE
 
 SAMPLES, RATE, PUSH, LOAD, MASS = 400, 1000.0, 2.0, 50.0, 5.0
 # Eight balls that a preload presses with 1e3 · 0.04 ** 1.5 N each.
-BEARING = SimpleNamespace(rows=2, balls=4, radial_load_deflection=1e3, clearance=-0.04, exponent=1.5)
+BEARING = SimpleNamespace(rows=2, balls=4, radial_load_deflection=1e3, clearance=-0.04, exponent=1.5, contact_angle=0.0)
 PRELOAD = 8 * 8.0
 
 

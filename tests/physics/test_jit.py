@@ -16,9 +16,11 @@ from physics._jit import (
     CACHE_FOLDER,
     cache,
     fingerprint,
+    keep_arguments_apart,
     njit,
     njit_inline,
     njit_inner,
+    njit_lean,
     njit_pasted,
     raised_by_cache,
     specialise,
@@ -308,3 +310,21 @@ def test_a_user_without_a_home_gets_a_cache_of_his_own(monkeypatch):
     assert folder.is_dir()
     assert Path(tempfile.gettempdir()) in folder.parents
     monkeypatch.delenv("SPALLGEN_CACHE")
+
+
+def test_a_kernel_that_keeps_its_arguments_apart_aligns_its_own_stack_and_computes_the_same():
+    @njit_lean
+    def plain(values):
+        return 3.0 * called(values)
+
+    @njit_lean
+    def apart(values):
+        keep_arguments_apart()
+        return 3.0 * called(values)
+
+    values = np.linspace(0.0, 1.0, 7)
+    assert apart(values) == plain(values) == apart.py_func(values)
+    # What the processor is told differs by machine; what the compiler is told does not.
+    [(signature, code)] = apart.inspect_llvm().items()
+    assert "alignstack=64" in code
+    assert "alignstack" not in plain.inspect_llvm(signature)

@@ -35,8 +35,8 @@ from physics.integrators.modal.memory import (
 from physics.integrators.stops import KINK_NUDGE_SHARE
 from physics.integrators.trial import MOST_CHANGES_PER_STEP, SMALLEST_STEP_SHARE
 
-# Error of Simpson's rule over a step, relative, of the force (t − t0)^1.5 with which contact starts and ends.
-START_ERROR = 0.0024
+# Simpson's rule is exact where n is 1 or 2; a step is graded as if it were wrong by this share there.
+LEAST_START_ERROR = 1e-4
 # Locating a change to the nearest unit is wrong by this share of the unit (root mean square).
 UNIT_ERROR = 0.29
 # A contact change is planned to be wrong by this share of the tolerance at most, and counts, with the steps next to it,
@@ -48,8 +48,13 @@ ONE_INSTANT = 4.5e-16
 
 @njit_pasted
 def graded_length(law: Law, speed: float, tolerance: float) -> float:
-    """Longest step (s) next to an instant at which a ball starts or ceases to touch at `speed` (m/s)."""
-    return (tolerance / (START_ERROR * law.stiffness * max(abs(speed), 1e-12) ** 1.5)) ** 0.4
+    """Longest step (s) next to an instant t0 at which a ball starts or ceases to touch at `speed` (m/s).
+
+    Simpson's rule over it is wrong by no more than `tolerance` (N s) in the momentum of the force K (speed (t − t0))ⁿ.
+    """
+    n = law.exponent
+    start_error = max(abs((1.0 + 4.0 * 0.5**n) / 6.0 - 1.0 / (n + 1.0)), LEAST_START_ERROR)
+    return (tolerance / (start_error * law.stiffness * max(abs(speed), 1e-12) ** n)) ** (1.0 / (n + 1.0))
 
 
 @njit_inner

@@ -9,7 +9,7 @@ jump of force it makes; next to it steps are graded as finely as contact begins 
 
 from __future__ import annotations
 
-from physics._jit import njit_lean, njit_pasted
+from physics._jit import keep_arguments_apart, njit_lean, njit_pasted
 from physics.arrays import Array
 from physics.contact.contact_set import count_changes, note_motion, reset_contact, restore_motion
 from physics.contact.forces import ACTIVE, Contacts, of_ball, set_time
@@ -245,6 +245,7 @@ def march_modal(
     Returns DONE, NOT_FINITE, LOG_FULL or OUT_OF_STEPS. After DONE it can go on to more samples, after LOG_FULL with a
     longer log.
     """
+    keep_arguments_apart()
     now, then, rest = memory.states[0], memory.states[1], memory.rest
     clock, marks = memory.clock, memory.marks
     set_rest(flow, clock[TIME], rest)

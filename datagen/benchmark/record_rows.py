@@ -17,7 +17,7 @@ from datagen.benchmark.fitness import unfit
 from datagen.benchmark.reading_policy import Reading
 from datagen.benchmark.rows import Rows
 from datagen.judging.known import known_kinematics
-from labels.classifier.liveness import DEAD, liveness
+from labels.classifier.liveness import DEAD, liveness, recorder_step
 from labels.dead_sensor import is_dead
 from labels.features.analysis import analyse
 from labels.features.conditioning import FEWEST_SAMPLES_USED
@@ -108,7 +108,8 @@ def record_rows(
     turns = kinematics.shaft_hz * len(signals) / rate
     for axis, signal in enumerate(np.asarray(signals, dtype=np.float64).T):
         whole = mended(signal, turns)
-        found = signal_rows(whole.signal, rate, kinematics, reading, [*_seed(labels), axis], turning)
+        seed = [*_seed(labels), axis]
+        found = signal_rows(whole.signal, rate, kinematics, reading, seed, turning, recorder_step(signal))
         jumps, glitches, shocks = jumps + whole.jumps, glitches + whole.glitches, shocks + whole.shocks
         rows += [replace(row, axis=axis) for row in found]
         reasons += [row.reason for row in found] or [DEAD]
@@ -145,15 +146,20 @@ def signal_rows(
     reading: Reading,
     seed: list[int],
     turning: Turning | None = None,
+    step: float | None = None,
 ) -> list[Row]:
-    """Rows of the `signal` (T,) of one axis at `rate` (Hz), none for pieces that are too short or without a signal;
-    `seed` decides the random numbers."""
+    """Rows of the `signal` (T,) of one axis at `rate` (Hz), none for pieces that are too short or without a signal.
+
+    `seed` decides the random numbers; `step` (m/s²) is that of the recorder if the signal has been mended.
+    """
     if is_dead(signal):
         return []
     rows = []
     for copy in range(reading.copies):
         stream = reading.stream(seed, copy)
         heard = reading.with_noise(signal, copy, stream)
+        # Added noise has no steps.
+        heard_step = step if step is not None and heard is signal else recorder_step(heard)
         part = reading.stretch(heard.size, rate, copy, stream)
         pieces = equal_pieces(heard[part], rate, reading.window)
         angles = repeat(None) if turning is None else equal_pieces(turning.angle[part], rate, reading.window)
@@ -163,7 +169,7 @@ def signal_rows(
             if piece.size < FEWEST_SAMPLES_USED or is_dead(piece[: fft.prev_fast_len(piece.size, real=True)]):
                 continue
             analysis = analyse(piece, rate, given, bandwidth, None if angle is None else Turning(angle))
-            values, reason = feature_values(analysis), liveness(analysis, piece).reason
+            values, reason = feature_values(analysis), liveness(analysis, piece, heard_step).reason
             rows.append(Row(values, copy > 0, reason, shaft_hz=analysis.speed.shaft_hz, window=window))
     return rows
 

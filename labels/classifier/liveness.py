@@ -63,15 +63,23 @@ class Liveness:
         return STOPPED if silent and self.turns >= FEWEST_TURNS else ""
 
 
-def liveness(analysis: Analysis, signal: Array) -> Liveness:
-    """Liveness of a `signal` (T,), in m/s² as the sensor gives it, and its analysis."""
+def liveness(analysis: Analysis, signal: Array, step: float) -> Liveness:
+    """Liveness of a `signal` (T,), in m/s², and its analysis; `step` (m/s²) is that of its recorder."""
     return Liveness(
         _velocity(analysis),
-        _digits(signal),
+        float(signal.std()) / step,
         _colour(analysis),
         _turning(analysis),
         analysis.given.shaft_hz * analysis.record.duration,
     )
+
+
+def recorder_step(signal: Array) -> float:
+    """Smallest difference between two values of a `signal` (T,) as it was recorded: mending it leaves no step.
+
+    Infinite if all are the same.
+    """
+    return float(np.diff(np.unique(signal)).min(initial=np.inf))
 
 
 def _velocity(analysis: Analysis) -> float:
@@ -89,11 +97,6 @@ def _windowed(analysis: Analysis) -> Spectrum:
     """Fourier components (F - 2,) but the first and last in a Hann window of mean 1, so that no drift or hum leaks."""
     spectrum = analysis.record.raw
     return np.asarray(spectrum[1:-1] - 0.5 * (spectrum[:-2] + spectrum[2:]))
-
-
-def _digits(signal: Array) -> float:
-    """RMS over the smallest difference between two values of a signal."""
-    return float(signal.std() / np.diff(np.unique(signal)).min())
 
 
 def _colour(analysis: Analysis) -> float:

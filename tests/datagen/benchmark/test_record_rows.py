@@ -23,7 +23,7 @@ from datagen.benchmark.windows import common_rate, read_windows
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
 from datagen.judging.known import known_kinematics
-from labels.classifier.liveness import DEAD, STOPPED, liveness
+from labels.classifier.liveness import DEAD, STOPPED, liveness, recorder_step
 from labels.features.analysis import analyse
 from labels.features.table import FEATURE_NAMES
 from labels.features.turning import Turning
@@ -350,9 +350,9 @@ def test_each_window_is_heard_below_its_own_bandwidth_and_judged_alive_by_its_ow
         heard.append((piece.size, bandwidth))
         return analyse(piece, rate, given, bandwidth, turning)
 
-    def judging(analysis, piece):
+    def judging(analysis, piece, step):
         judged.append(piece.size)
-        return liveness(analysis, piece)
+        return liveness(analysis, piece, step)
 
     monkeypatch.setattr("datagen.benchmark.record_rows.analyse", listening)
     monkeypatch.setattr("datagen.benchmark.record_rows.liveness", judging)
@@ -362,3 +362,19 @@ def test_each_window_is_heard_below_its_own_bandwidth_and_judged_alive_by_its_ow
     drawn = [bandwidth for _, bandwidth in heard]
     assert len(set(drawn)) == 5
     assert 3000.0 <= min(drawn) < max(drawn) <= 6000.0
+
+
+@pytest.mark.parametrize("behind", [0.0, 20.0])
+def test_a_stopped_machine_is_known_by_its_recorders_step_also_if_a_jump_was_levelled(behind):
+    # White noise of one and a half steps, in a unit misread a hundredfold: too loud for the limit of velocity.
+    digits = np.round(1.5 * shaking(24_000)) + behind * (np.arange(24_000) >= 10_000)[:, None]
+    found = record_rows(digits * 10.0, labels(), Reading())
+    assert found.facts.jumps == (behind > 0.0)
+    assert found.facts.reason == STOPPED
+    heard = signal_rows(10.0 * digits[:, 0], RATE, known_kinematics(labels()), Reading(noise_db=-20.0), [0], None, 10.0)
+    assert [row.reason for row in heard] == [""]
+
+
+def test_a_signal_of_one_value_has_no_step():
+    assert recorder_step(np.full(9, 2.0)) == math.inf
+    assert recorder_step(np.array([3.0, 1.0, 1.25, 3.0])) == 0.25

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from labels.classifier.liveness import STOPPED, TURNING_EVIDENCE, WHITE, Liveness, liveness
+from labels.classifier.liveness import STOPPED, TURNING_EVIDENCE, WHITE, Liveness, liveness, recorder_step
 from labels.features.analysis import analyse
 from labels.features.kinematics import bearing_kinematics
 
@@ -17,7 +17,7 @@ STEP = 0.01
 
 
 def found(signal, rate=RATE, known=KNOWN):
-    return liveness(analyse(signal, rate, known), signal)
+    return liveness(analyse(signal, rate, known), signal, recorder_step(signal))
 
 
 def stopped():

@@ -93,6 +93,8 @@ def _print_result(scores: SizeScores) -> None:
     print(f"{scores.folder}, split {scores.split}: {records}, {answered} with an estimate{silent}")
     if scores.load_known and not scores.load_given:
         print("blind: the load or the Hertz factor of these records is unknown")
+    if scores.fitted_to:
+        print(f"no fair score: {counted(scores.fitted_to, 'record')} of machines that the estimator was fitted to")
     if scores.stated is not None:
         print(stated_sentence(scores.stated))
     for known in scores.known_sizes:

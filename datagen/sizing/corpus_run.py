@@ -6,12 +6,13 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from datagen.corpus_files.index import read_index
+from datagen.corpus_files.manifest import read_manifest
 from datagen.judging.scored_runs import write_line
 from datagen.judging.splits import ALL, TEST, require_split
 from datagen.progress import Count, ignore
 from datagen.sizing.aggregation import summarise
 from datagen.sizing.comparison import score_record, unsized_row
-from datagen.sizing.estimators import find_estimator
+from datagen.sizing.estimators import find_estimator, is_fitted_to
 from datagen.sizing.flat_rows import flat_summary
 from datagen.sizing.in_blocks import in_blocks
 from datagen.sizing.known_sizes import KnownSize, factor_for, known_sizes, machine_of, with_effect
@@ -63,7 +64,15 @@ def _summed_up(asked: SizeRequest, split: str, scored: list[ScoredRecord], known
         known_sizes=with_effect(known, scored),
         stated=summarise_stated(scored),
         load_given=sum(record.answer.load_known for record in scored),
+        fitted_to=_count_fitted_to(asked, scored),
     )
+
+
+def _count_fitted_to(asked: SizeRequest, scored: list[ScoredRecord]) -> int:
+    manifest = read_manifest(asked.folder)
+    if manifest.imported or asked.estimator is not None:
+        return 0
+    return sum(record.asked and is_fitted_to(manifest.recipe["seed"], record.truth.split) for record in scored)
 
 
 def _counted(scored: Iterator[ScoredRecord], total: int, count: Count) -> list[ScoredRecord]:

@@ -13,12 +13,16 @@ from numpy.typing import NDArray
 from datagen.errors import BadInput
 from datagen.judging.user_code import FIELD, load_user_code
 from datagen.sizing.user_estimator import UserEstimator
+from labels.schema import SPLITS
 from labels.spall_size.estimation.calibration import Calibration
 from labels.spall_size.estimation.estimator import SizeEstimator
 from labels.spall_size.situation import Situation
 from labels.spall_size.size_estimate import SizeEstimate
 
 CALIBRATION_FILE = Path(__file__).with_name("calibration.npz")
+# Recipes' seeds, which decide what machines are drawn, and the splits of their corpora that the calibration is fitted
+# to: of datasets/size_ladder, size_training and size_imperfect.
+FITTED_SPLITS: Mapping[int, tuple[str, ...]] = {3303: ("train", "validation"), 4404: SPLITS, 4406: SPLITS}
 ESTIMATOR_FORMS = (
     "module:Class with a method estimate(acceleration, rate, situation) that returns a SizeEstimate, "
     "or module:function that does the same"
@@ -38,6 +42,11 @@ def default_estimator() -> SizeEstimator:
     with np.load(CALIBRATION_FILE) as file:
         arrays: Mapping[str, NDArray[np.generic]] = {name: file[name] for name in file.files}
     return SizeEstimator(Calibration.from_arrays(dict(arrays)))
+
+
+def is_fitted_to(seed: int, split: str) -> bool:
+    """Whether our estimator has been fitted to machines that a recipe of this `seed` draws for this `split`."""
+    return split in FITTED_SPLITS.get(seed, ())
 
 
 @cache

@@ -13,7 +13,7 @@ from datagen.sizing.size_summary import SizeSummary, StatedSizes
 class SizeScores:
     """`summary` is None where no record's ball passes are known, as in imported recordings; `stated` is what is scored
     of those by what their SPEC states, None if it states nothing. `load_given` counts the records whose load and Hertz
-    factor the estimator was given."""
+    factor the estimator was given, `fitted_to` those of machines that our estimator has been fitted to."""
 
     folder: str
     estimator: str
@@ -24,3 +24,4 @@ class SizeScores:
     known_sizes: list[KnownSize]
     stated: StatedSizes | None = None
     load_given: int = 0
+    fitted_to: int = 0

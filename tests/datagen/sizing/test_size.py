@@ -15,15 +15,16 @@ import pandas
 import pytest
 from command_line import run
 
+from datagen.corpus_files.index import read_index
 from datagen.errors import BadInput
 from datagen.judging.stated_speed import SPEED_ERROR
-from datagen.recipes.recipe import parse_recipe
+from datagen.recipes.recipe import load_recipe, parse_recipe
 from datagen.runs.generate import generate
 from datagen.runs.workers import Engine
 from datagen.scenarios.streams import PURPOSES, stream
 from datagen.sizing.aggregation import summarise
 from datagen.sizing.corpus_run import score_sizes
-from datagen.sizing.estimators import default_estimator, find_estimator
+from datagen.sizing.estimators import FITTED_SPLITS, default_estimator, find_estimator
 from datagen.sizing.known_sizes import KnownSize, with_effect
 from datagen.sizing.record_errors import extent_error, lag_error, noise_level, noise_levels
 from datagen.sizing.scored_record import ScoredRecord
@@ -32,6 +33,7 @@ from datagen.sizing.size_summary import SizeSummary
 from datagen.sizing.sized_records import sized_records, without_load
 from datagen.sizing.stated_situation import wrong_speed
 from datagen.sizing.tables import known_size_sentence
+from labels.schema import SPLITS
 from labels.spall_size.estimation.calibration import Calibration
 from labels.spall_size.estimation.estimator import SizeEstimator
 from labels.spall_size.estimation.rules import EnvelopeLagRule
@@ -226,6 +228,25 @@ def test_of_a_corpus_with_a_split_test_that_alone_is_scored_unless_another_is_as
     scores = score_sizes(SizeRequest(divided))
     assert [record.truth.record for record in scores.records] == scored
     assert scores.split == ("test" if "test" in splits else "all")
+
+
+def test_records_of_machines_that_the_estimator_was_fitted_to_are_counted_and_said_to_be_no_fair_score(
+    sized_corpus: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert score_sizes(SizeRequest(sized_corpus, split="all")).fitted_to == 0
+    splits = read_index(sized_corpus)["split"].tolist()
+    monkeypatch.setattr("datagen.sizing.estimators.FITTED_SPLITS", {4: (splits[0],)})
+    assert score_sizes(SizeRequest(sized_corpus, split="all")).fitted_to == splits.count(splits[0]) < len(splits)
+    monkeypatch.setattr("datagen.sizing.estimators.FITTED_SPLITS", {4: SPLITS})
+    assert "no fair score: 4 records of machines" in run("size", sized_corpus, "--split", "all")[1]
+    own = SizeRequest(sized_corpus, "labels.spall_size.estimation.rules:EnvelopeLagRule", split="all")
+    assert score_sizes(own).fitted_to == 0
+
+
+def test_the_fitted_seeds_and_splits_are_those_of_the_recipes_that_the_page_names() -> None:
+    folders = {"size_ladder": ("train", "validation"), "size_training": SPLITS, "size_imperfect": SPLITS}
+    recipes = {load_recipe(name).seed: splits for name, splits in folders.items()}
+    assert recipes == FITTED_SPLITS
 
 
 def figure(summary: SizeSummary, name: str) -> float:

@@ -9,6 +9,8 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from physics._jit import njit_inline, njit_inner, njit_pasted
 from physics.contact.contact_set import NOTED_COMPRESSION, contradicts, count_changes
 from physics.contact.forces import ACTIVE, CLOSING, COMPRESSION, FLOOR, LAW, Contacts, Law, compression_of
@@ -35,8 +37,6 @@ from physics.integrators.modal.memory import (
 from physics.integrators.stops import KINK_NUDGE_SHARE
 from physics.integrators.trial import MOST_CHANGES_PER_STEP, SMALLEST_STEP_SHARE
 
-# Simpson's rule is exact where n is 1 or 2; a step is graded as if it were wrong by this share there.
-LEAST_START_ERROR = 1e-4
 # Locating a change to the nearest unit is wrong by this share of the unit (root mean square).
 UNIT_ERROR = 0.29
 # A contact change is planned to be wrong by this share of the tolerance at most, and counts, with the steps next to it,
@@ -53,7 +53,8 @@ def graded_length(law: Law, speed: float, tolerance: float) -> float:
     Simpson's rule over it is wrong by no more than `tolerance` (N s) in the momentum of the force K (speed (t − t0))ⁿ.
     """
     n = law.exponent
-    start_error = max(abs((1.0 + 4.0 * 0.5**n) / 6.0 - 1.0 / (n + 1.0)), LEAST_START_ERROR)
+    # To a ten thousandth, and that at least: the rule is exact where n is 1 or 2.
+    start_error = max(1.0, np.rint(1e4 * abs((1.0 + 4.0 * 0.5**n) / 6.0 - 1.0 / (n + 1.0)))) / 1e4
     return (tolerance / (start_error * law.stiffness * max(abs(speed), 1e-12) ** n)) ** (1.0 / (n + 1.0))
 
 

@@ -15,6 +15,7 @@ from physics.spall import Spall, is_extended
 from physics.validity import assess
 
 SIZES = ("extent", "extent_mm", "extent_spacing", "depth", "path_depth", "entry_taper", "exit_taper", "roughness")
+NO_SPALL: dict[str, object] = dict.fromkeys(SIZES, 0.0) | {"bridged": False, "profile": "none"}
 # Of Gauss: they integrate a polynomial of the seventh degree exactly.
 POINTS, WEIGHTS = np.polynomial.legendre.leggauss(4)
 
@@ -61,7 +62,7 @@ def defect_values(scene: Scene) -> dict[str, object]:
     spall, bearing = largest_spall(scene), scene.rig.bearing
     common = {"condition": condition(scene), "location": scene.defective_race, "spalls": len(scene.spalls)}
     if spall is None:
-        return common | dict.fromkeys(SIZES, 0.0) | {"bridged": False, "profile": "none"}
+        return common | NO_SPALL
     path = build_path(spall, bearing)
     return common | {
         "extent": spall.extent,

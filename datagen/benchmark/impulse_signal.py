@@ -71,6 +71,7 @@ def draw_train(seed: int, machine: int, record: int, ingredients: Ingredients) -
     rate, duration = 25_600.0, float(of_record("duration").choice(DURATIONS, p=SHARES))
     kinematics = _bearing(of_machine("bearing"), of_record("bearing"))
     location = LOCATIONS[record % len(LOCATIONS)]
+    # Without paths of their own all machines ring with the same single resonance.
     paths_from = of_machine("paths") if ingredients.sensor_paths else np.random.default_rng(seed)
     paths = _paths(paths_from, several=ingredients.sensor_paths)
     floor = _floor((of_machine if ingredients.machine_floor else of_record)("floor"))
@@ -136,8 +137,8 @@ def impulses(streams: Streams, size: int, rate: float, kinematics: Kinematics, l
 
 
 def _pass_times(of_record: np.random.Generator, kinematics: Kinematics, location: str, duration: float) -> Array:
-    """Times (s) at which balls hit a defect, with random slip and jitter: those of a `duration` (s), and some around
-    it."""
+    """Times (s) at which balls hit a defect, with random slip and jitter: from before the start of
+    a `duration` (s) to about its end: jitter may leave out the last one or two."""
     slip = of_record.uniform(0.0, 0.02)
     cage = kinematics.ftf * (1.0 - slip)
     order = kinematics.balls * (cage if location == "outer" else 1.0 - cage)

@@ -103,7 +103,7 @@ def _require_whole_transfer(folder: Path) -> None:
     from datagen.recipes.recipe import load_recipe
 
     manifest, recipe = Corpus(folder).manifest, load_recipe("transfer")
-    if manifest.identity.recipe_hash != recipe.hash[:16]:
+    if manifest.identity.recipe_hash != recipe.short_hash:
         raise BadInput("this is no corpus of the recipe transfer as it is now", str(folder))
     if manifest.records < manifest.recipe_records:
         problem = f"this corpus has {manifest.records} of {manifest.recipe_records} records"

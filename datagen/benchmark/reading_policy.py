@@ -15,6 +15,7 @@ from physics.arrays import Array
 LONGEST_WINDOW = 10.5
 SHORTEST_COPY = 0.3
 NOISY_COPIES = 2
+LEAST_NOISE_DB = -100.0
 
 
 @dataclass(frozen=True)
@@ -45,7 +46,8 @@ class Reading:
 
     def stream(self, seed: list[int], copy: int) -> np.random.Generator:
         """The random numbers of a `copy` of the record with that `seed`, other ones for every draw of noise."""
-        level = 0 if self.noise_db is None else int(1000 + round(10 * self.noise_db))
+        # Seeds may not be negative, and no level is below LEAST_NOISE_DB.
+        level = 0 if self.noise_db is None else int(round(10 * self.noise_db) - 10 * LEAST_NOISE_DB)
         return np.random.default_rng([*seed, self.noise_draw, level, copy])
 
     def with_noise(self, signal: Array, copy: int, stream: np.random.Generator) -> Array:

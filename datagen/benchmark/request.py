@@ -14,6 +14,7 @@ from datagen.benchmark.kept_rows import is_kept
 from datagen.benchmark.options import FEATURES, TRANSFER_ROWS, WINDOWS, Learning, Scoring
 from datagen.benchmark.plan import Benchmark
 from datagen.benchmark.predictions import FACTS
+from datagen.benchmark.reading_policy import LEAST_NOISE_DB
 from datagen.benchmark.trained import SAVE, TRAIN, is_saved
 from datagen.benchmark.verdicts import RULE
 from datagen.corpus import Corpus
@@ -28,7 +29,7 @@ from labels.classifier.learners import LEARNERS
 INPUTS = (FEATURES, WINDOWS)
 WITH_A_CORPUS = "with a corpus to learn from as --train"
 LEAST_BANDWIDTH = 1000.0
-LEAST_NOISE_DB, MOST_NOISE_DB = -100.0, 100.0
+MOST_NOISE_DB = 100.0
 TRAINING = (
     f"the folder of a simulated corpus, a file that {SAVE} wrote, {TRANSFER_ROWS}, {NAME} or {NAME}-without-INGREDIENT"
 )

@@ -52,7 +52,7 @@ OPTIONS = {
     "learner": Option(help="Model to train: forest, logistic, boosting or all."),
     "estimator": Option(metavar="MODULE:NAME", help="Your own scikit-learn estimator, or a function."),
     "input": Option("--input", help="Input of your estimator: features or windows."),
-    "bandwidth": Option(metavar="HZ", help="Limit every record to this; 20000 or half its rate if not given."),
+    "bandwidth": Option(metavar="HZ", help="Limit every record to this; 20000 or 0.95 of half its rate if not given."),
     "speed_error": Option(
         metavar="SHARE", help=f"Largest relative error of the shaft speeds used in training, 0 to {SPEED_ERROR}."
     ),

@@ -19,7 +19,7 @@ Out = Annotated[Path, typer.Option("--out", metavar="FILE.csv", help="Table to w
 Split = Annotated[str, typer.Option(metavar="SPLIT", help="train, validation, test or all.")]
 Bandwidth = Annotated[
     float | None,
-    typer.Option(metavar="HZ", help="Limit every record to this; 20000 or half its rate if not given."),
+    typer.Option(metavar="HZ", help="Limit every record to this; 20000 or 0.95 of half its rate if not given."),
 ]
 AsLearned = Annotated[
     bool,

@@ -30,7 +30,7 @@ def recipe_of(manifest: Manifest, folder: Path) -> tuple[Recipe | None, list[str
         recipe = parse_recipe(manifest.recipe, manifest_path(folder))
     except BadInput as problem:
         return None, [f"manifest.json: its recipe cannot be read: {problem}"]
-    if recipe.hash[:16] != manifest.identity.recipe_hash:
+    if recipe.short_hash != manifest.identity.recipe_hash:
         return None, ["manifest.json: its recipe does not have the hash that it states"]
     if recipe.name != manifest.name or recipe.count != manifest.recipe_records:
         return recipe, ["manifest.json: name or recipe_records disagree with its recipe"]

@@ -151,6 +151,11 @@ class Recipe(Table):
         return hashlib.sha256(content.encode()).hexdigest()
 
     @property
+    def short_hash(self) -> str:
+        """The first 16 digits of the hash, by which a corpus knows the recipe that made it."""
+        return self.hash[:16]
+
+    @property
     def count(self) -> int:
         """Number of records of all parts."""
         return sum(part.records for part in self.part)

@@ -9,16 +9,14 @@ from typing import Any
 from datagen.errors import BadInput
 from datagen.recordings.settings import MOST_BALLS, BearingNumbers
 from datagen.recordings.source import Source
-from labels.schema import EXTENDED_FROM, LABELS, MEASURED, UNKNOWN, Label
+from labels.description import NO_SPALL
+from labels.schema import EXTENDED_FROM, HEALTHY, LABELS, MEASURED, UNKNOWN, Label
 from physics.bearing import RACES, Bearing
 from physics.catalog import bearing as catalogue_bearing
 from physics.checks import InvalidParameter
 from physics.hertz import BALL_EXPONENT
 
 UNSOLVED: dict[str, Any] = {"model": MEASURED, "method": "none", "validity": "", "contact_law": UNKNOWN}
-HEALTHY: dict[str, Any] = dict.fromkeys(
-    ("extent", "extent_mm", "extent_spacing", "depth", "path_depth", "entry_taper", "exit_taper", "roughness"), 0.0
-) | {"spalls": 0, "bridged": False, "profile": "none"}
 NUMBERS = (
     "one of these, or its numbers: bearing = {balls = …, ball_diameter_mm = …, pitch_diameter_mm = …}, or bpfo and bpfi"
 )
@@ -132,14 +130,14 @@ def _check_cage(source: Source, stated: dict[str, float]) -> None:
 def _defect_labels(source: Source, bearing: Bearing | None) -> dict[str, Any]:
     location, condition = source.setting("location", UNKNOWN), source.setting("condition", UNKNOWN)
     sizes = _sizes(source, bearing, location)
-    healthy = "none" if location == "none" else "healthy" if condition == "healthy" else ""
+    healthy = "none" if location == "none" else HEALTHY if condition == HEALTHY else ""
     if healthy:
-        if {location, condition} - {"none", "healthy", UNKNOWN} or sizes or source.setting("spalls", 0):
+        if {location, condition} - {"none", HEALTHY, UNKNOWN} or sizes or source.setting("spalls", 0):
             raise BadInput(
                 "a healthy bearing has no defect", source.request.place, "location", location,
                 'location "none", condition "healthy" and no size',
             )  # fmt: skip
-        return {"condition": "healthy", "location": "none"} | HEALTHY
+        return {"condition": HEALTHY, "location": "none", "spalls": 0} | NO_SPALL
     derived = UNKNOWN
     if "extent_spacing" in sizes:
         derived = "extended" if sizes["extent_spacing"] >= EXTENDED_FROM else "line"

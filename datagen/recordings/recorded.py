@@ -225,7 +225,8 @@ def _pieces(source: Source, rate: float, part: tuple[int, int]) -> list[tuple[in
         return [part]
     length, size = round(cut * rate), stop - start
     if not FEWEST_STORED_SAMPLES <= length <= size:
-        of_what = "the length" if size == stop else "the part from from_s to to_s"
+        is_part = {"from_s", "to_s"} & source.request.settings.keys()
+        of_what = "the part from from_s to to_s" if is_part else "the length"
         allowed = f"{FEWEST_STORED_SAMPLES / rate:g} to {size / rate:g} s, {of_what} of {source.path.name}"
         raise BadInput(file=source.request.place, field="cut_s", value=cut, allowed=allowed)
     return [(start + k * length, start + (k + 1) * length) for k in range(size // length)]

@@ -19,9 +19,9 @@ from datagen.recordings.settings import Tach
 from datagen.recordings.source import WHOLE, Source, Span, span_of
 from datagen.recordings.values import RANGES, in_range
 from labels.schema import UNKNOWN
-from physics.angular_speed import RPM_PER_HZ
+from physics.angular_speed import RPM, RPM_PER_HZ
 
-RPM_PER = {"speed_rpm": 1.0, "speed_hz": 60.0}
+RPM_PER_UNIT = {"speed_rpm": 1.0, "speed_hz": RPM_PER_HZ}
 FEWEST_PULSES = 3
 # A shaft that stays this near (turns) to one that turns evenly is steady. If balls pass five times a turn, the fourth
 # harmonic of that then strays by two periods at most, and its line is hardly wider.
@@ -152,7 +152,7 @@ def _unless_steady(angle: NDArray[np.float64]) -> NDArray[np.float64] | None:
 def _stated_speed(source: Source, span: Span) -> tuple[float, str]:
     """Mean speed (rpm) in a span and its basis."""
     nominal = source.number("nominal_speed_rpm", span)
-    for name, factor in RPM_PER.items():
+    for name, factor in RPM_PER_UNIT.items():
         measured = source.number(name, span) if nominal is None else source.or_none(name, span)
         if measured is not None:
             return measured * factor, "measured"
@@ -166,14 +166,14 @@ def _turned(source: Source, duration: float) -> tuple[NDArray[np.float64], NDArr
     if course is None:
         return None
     course = np.maximum(course, CREEP * course.mean())
-    angle = np.concatenate([[0.0], np.cumsum(course)]) * (duration / course.size * math.pi / 30.0)
+    angle = np.concatenate([[0.0], np.cumsum(course)]) * (duration / course.size * RPM)
     return np.linspace(0.0, duration, course.size + 1), angle
 
 
 def told_course(source: Source, span: Span = WHOLE) -> NDArray[np.float64] | None:
     """The speeds (N,), rpm, that a channel holds along a span of the recording, 0 where the shaft stands still; None
     without such a channel."""
-    courses = ((source.course(name, span), factor) for name, factor in RPM_PER.items())
+    courses = ((source.course(name, span), factor) for name, factor in RPM_PER_UNIT.items())
     return next((factor * course for course, factor in courses if course is not None), None)
 
 

@@ -73,7 +73,7 @@ def corpus_identity(recipe: Recipe) -> Identity:
     """The hashes that a corpus made now from this recipe carries."""
     from physics.compiled import fingerprint
 
-    return Identity(recipe.hash[:16], fingerprint(), format_hash(), program_hash())
+    return Identity(recipe.short_hash, fingerprint(), format_hash(), program_hash())
 
 
 def _last(spans: Iterable[Span]) -> int:

@@ -10,7 +10,7 @@ import numpy as np
 from datagen.sizing.bearing_intervals import bearing_numbers, interval_over_bearings, mean_with_interval
 from datagen.sizing.error_tables import error_tables
 from datagen.sizing.figures import figures_of
-from datagen.sizing.record_errors import arc_error, extent_error, mean_of, median_of, noise_level
+from datagen.sizing.record_errors import arc_error, mean_of, median_of, noise_level
 from datagen.sizing.scored_record import NO_SCORES, ScoredRecord
 from datagen.sizing.size_summary import EventFigures, KnownSizeErrors, LongSpalls, Seconds, SizeSummary
 from labels.event_scores import EventScores
@@ -65,9 +65,9 @@ def _known_size(records: list[ScoredRecord]) -> KnownSizeErrors:
             (other for other in known_for[record.bearing_group] if other.truth.record != record.truth.record), None
         )
         if known is not None:
-            factor = known_size_factor(known.answer.extent, known.truth.extent)
-            before.append(extent_error(record))
-            after.append(arc_error(record, record.answer.extent * factor))
+            factor = known_size_factor(known.answer.own_extent, known.truth.extent)
+            before.append(arc_error(record, record.answer.own_extent))
+            after.append(arc_error(record, record.answer.own_extent * factor))
     return KnownSizeErrors(
         records=len(before),
         arc_error_without=mean_of(before),

@@ -19,7 +19,7 @@ from labels.spall_size.estimation.rules import EnvelopeLagRule
 from labels.spall_size.event_truth import EventTruth
 from labels.spall_size.known_size import corrected
 from labels.spall_size.situation import Situation
-from labels.spall_size.size_estimate import Bounds, SizeEstimate, SizeOutcome
+from labels.spall_size.size_estimate import Bounds, SizeEstimate
 from labels.spall_size.static_release import arc_with_static_release
 from physics.bearing import RACES
 
@@ -78,8 +78,7 @@ def _with_race(situation: Situation, estimate: SizeEstimate, labels: Mapping[str
 
 def unsized_row(unsized: UnsizedRecord) -> ScoredRecord:
     """The row of a record that could not be given to an estimator."""
-    nothing = _answer(SizeEstimate(SizeOutcome.NO_PASSES, ""))
-    return ScoredRecord(_truth(unsized.labels), replace(nothing, outcome=NOT_ASKED, reason=unsized.reason))
+    return ScoredRecord(_truth(unsized.labels), Answer(NOT_ASKED, unsized.reason))
 
 
 def _truth(labels: Mapping[str, Any]) -> Truth:

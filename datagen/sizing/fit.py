@@ -76,7 +76,7 @@ def fit(corpora: Sequence[Path], out: Path, workers: int) -> None:
     made = [trial for trials_of_corpus in by_corpus for trial in trials_of_corpus]
     columns = TrialColumns.of(made, np.arange(len(made)) < len(by_corpus[0]))
     _require_enough(columns)
-    print(f"{len(made)} trials of {len({(trial.bearing_id, trial.record) for trial in made})} records")
+    print(f"{len(made)} trials of {_record_count(made)} records")
     calibration = replace(fit_calibration(made, columns), origin=_origin(corpora, made))
     whole = io.BytesIO()
     np.savez_compressed(whole, **calibration.to_arrays())  # type: ignore[arg-type]
@@ -110,6 +110,11 @@ def _require_enough(columns: TrialColumns) -> None:
         raise BadInput(problem, allowed="corpora with spalls on more bearings")
 
 
+def _record_count(made: list[Trial]) -> int:
+    """How many records the trials are of; the number of a record alone is not unique over corpora."""
+    return len({(trial.bearing_id, trial.record) for trial in made})
+
+
 def _origin(corpora: Sequence[Path], made: list[Trial]) -> str:
     """In words, what was fitted to: corpora and the hashes of their recipes, records, sampling rates, programs."""
     manifests = [read_manifest(corpus) for corpus in corpora]
@@ -119,7 +124,7 @@ def _origin(corpora: Sequence[Path], made: list[Trial]) -> str:
     versions = ", ".join(f"{name} {programs[name]}" for name in ("python", *LEARNED_WITH))
     features = program_hash(*FEATURE_CODE)
     return (
-        f"Fitted by datagen.sizing.fit to {len({(trial.bearing_id, trial.record) for trial in made})} records at "
+        f"Fitted by datagen.sizing.fit to {_record_count(made)} records at "
         f"{rates} Hz, the training and validation splits of {names}; features {features}, {versions}."
     )
 

@@ -133,7 +133,7 @@ def _with_effect(size: KnownSize, corrected: list[ScoredRecord]) -> KnownSize:
     scored = [record for record in corrected if record.truth.known and record.scorable]
     if not scored:
         return replace(size, corrected=len(corrected))
-    without = [arc_error(record, record.answer.extent / record.answer.known_size_factor) for record in scored]
+    without = [arc_error(record, record.answer.own_extent) for record in scored]
     given = [extent_error(record) for record in scored]
     means = float(np.mean(without)), float(np.mean(given))
     return replace(size, corrected=len(corrected), arc_error_without=means[0], arc_error_with=means[1])

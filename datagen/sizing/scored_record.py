@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from labels.event_scores import EventScores
 from labels.schema import UNKNOWN
-from labels.spall_size.size_estimate import Bounds
+from labels.spall_size.size_estimate import NO_TIMES, Bounds
+from labels.spall_size.size_estimate import UNKNOWN as UNKNOWN_BOUNDS
 
 LONGEST_SCORED_SPACINGS = 0.9
 SHORTEST_LAG_SAMPLES, SHORTEST_LAG_SPACINGS = 5.0, 1.0 / 50.0
@@ -66,22 +67,27 @@ class Answer:
 
     outcome: str
     reason: str
-    method: str
-    race: str
-    trust: float
-    lag: float
-    lag_interval: Bounds
-    lag_arc: float
-    extent: float
-    extent_interval: Bounds
-    extent_mm: float
-    extent_mm_interval: Bounds
-    candidates: tuple[float, ...]
-    candidates_mm: tuple[float, ...]
-    event_times: NDArray[np.float64] = field(compare=False)
+    method: str = ""
+    race: str = ""
+    trust: float = 0.0
+    lag: float = math.nan
+    lag_interval: Bounds = UNKNOWN_BOUNDS
+    lag_arc: float = math.nan
+    extent: float = math.nan
+    extent_interval: Bounds = UNKNOWN_BOUNDS
+    extent_mm: float = math.nan
+    extent_mm_interval: Bounds = UNKNOWN_BOUNDS
+    candidates: tuple[float, ...] = ()
+    candidates_mm: tuple[float, ...] = ()
+    event_times: NDArray[np.float64] = field(default_factory=lambda: NO_TIMES, compare=False)
     known_size_factor: float = 1.0
     seconds: float = 0.0
     load_known: bool = False
+
+    @property
+    def own_extent(self) -> float:
+        """The extent (rad) before a known size corrected it."""
+        return self.extent / self.known_size_factor
 
     @property
     def extent_deg(self) -> float:

@@ -17,16 +17,16 @@ class Stage:
     """A two-class learner with Platt's calibration on rows as they are, without noise added; `answers` name its answers
     False and True in messages.
 
-    `held_out` (N,) are its calibrated held-out probabilities, from the mean log odds of `repeats` divisions into folds.
+    `held_out` (N,) are its calibrated held-out probabilities, from the mean log odds of so many `divisions` into folds.
     """
 
     def __init__(
-        self, estimator: Any, seed: int = 0, repeats: int = 1, answers: tuple[str, str] = ("no", "yes")
+        self, estimator: Any, seed: int = 0, divisions: int = 1, answers: tuple[str, str] = ("no", "yes")
     ) -> None:
         self.estimator = estimator
         self.answers = answers
         self.seed = seed
-        self.repeats = repeats
+        self.divisions = divisions
 
     def fit(
         self,
@@ -53,7 +53,7 @@ class Stage:
         if np.unique(answer[plain]).size < 2:
             missing = self.answers[int(not answer[plain].any())]
             raise ValueError(f'"{missing}" is on no record without added noise; allowed: 1 or more')
-        level = [logit(self._held_out(table, answer, groups, folds, self.seed + r)) for r in range(self.repeats)]
+        level = [logit(self._held_out(table, answer, groups, folds, self.seed + k)) for k in range(self.divisions)]
         raw = probability_of(np.mean(level, axis=0))
         of_plain, share = answer[plain], answer[plain].mean()
         weight = np.where(of_plain, 1.0 / share, 1.0 / (1.0 - share))

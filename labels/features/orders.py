@@ -7,6 +7,7 @@ from scipy import fft
 
 from labels.features.analysis import VIBRATION_ORDERS, Analysis
 from labels.features.feature import Feature
+from labels.features.speed import SHAFT_HARMONICS
 from physics.arrays import Array
 from physics.bearing import RACES
 
@@ -22,12 +23,12 @@ ROWS = (
     Feature("outer_vibration", "ln nat", "ln(1 + evidence of BPFO 1 to 4 in the vibration itself).", ORDERS),
     Feature("inner_vibration", "ln nat", "ln(1 + evidence of BPFI 1 to 4 in the vibration itself).", ORDERS),
     Feature("race_vibration", "ln nat", "outer_vibration minus inner_vibration.", ORDERS),
-    Feature("outer_velocity", "log10", "Share of velocity power at BPFO 1 to 6, up to their top.", ORDERS),
-    Feature("inner_velocity", "log10", "Share of velocity power at BPFI 1 to 6, up to their top.", ORDERS),
-    Feature("shaft_velocity", "log10", "Share of velocity power at shaft orders 1 to 8, up to order 12.", ORDERS),
-    Feature("outer_cepstrum", "1", "Height of the cepstrum at one and two BPFO periods over its scatter.", CEPSTRUM),
-    Feature("inner_cepstrum", "1", "Height of the cepstrum at one and two BPFI periods over its scatter.", CEPSTRUM),
-    Feature("shaft_cepstrum", "1", "Height of the cepstrum at one and two shaft periods over its scatter.", CEPSTRUM),
+    Feature("outer_velocity", "log10", "log10 of the share of velocity power at BPFO 1 to 6, up to their top.", ORDERS),
+    Feature("inner_velocity", "log10", "log10 of the share of velocity power at BPFI 1 to 6, up to their top.", ORDERS),
+    Feature("shaft_velocity", "log10", "log10 of the share of velocity power, to order 12, at orders 1 to 8.", ORDERS),
+    Feature("outer_cepstrum", "ln", "ln(1 + height over scatter of the cepstrum at 1 and 2 BPFO periods).", CEPSTRUM),
+    Feature("inner_cepstrum", "ln", "ln(1 + height over scatter of the cepstrum at 1 and 2 BPFI periods).", CEPSTRUM),
+    Feature("shaft_cepstrum", "ln", "ln(1 + height over scatter of the cepstrum at 1 and 2 shaft periods).", CEPSTRUM),
 )
 
 
@@ -47,7 +48,7 @@ def measure(analysis: Analysis) -> dict[str, float]:
         "race_vibration": lines["outer_vibration"] - lines["inner_vibration"],
         "outer_velocity": _share(analysis, velocity, float(outer.fundamental[0]), VELOCITY_HARMONICS),
         "inner_velocity": _share(analysis, velocity, float(inner.fundamental[0]), VELOCITY_HARMONICS),
-        "shaft_velocity": _share(analysis, velocity, shaft, 8, VIBRATION_ORDERS * shaft),
+        "shaft_velocity": _share(analysis, velocity, shaft, SHAFT_HARMONICS, VIBRATION_ORDERS * shaft),
         "outer_cepstrum": rahmonics(analysis, cepstrum, float(outer.fundamental[0])),
         "inner_cepstrum": rahmonics(analysis, cepstrum, float(inner.fundamental[0])),
         "shaft_cepstrum": rahmonics(analysis, cepstrum, shaft),

@@ -57,7 +57,7 @@ def test_they_are_those_of_the_records_of_transfer(beginning):
         assert np.array_equal(getattr(kept.rows, name), getattr(made.rows, name))
     assert kept.classes.tolist() == made.classes.tolist()
     assert kept.bearings.tolist() == made.bearings.tolist()
-    assert KeptRows().recipe == load_recipe("transfer").hash[:16]
+    assert KeptRows().recipe == load_recipe("transfer").short_hash
 
 
 def test_those_of_the_split_test_are_left_to_score():

@@ -412,6 +412,8 @@ def test_a_cut_of_sixteen_samples_is_the_shortest(bring: Bring, mat: Mat, tmp_pa
     mat("a.mat")
     message = refusal(bring, GOOD + "cut_s = 0.015\n", tmp_path)
     assert "cut_s = 0.015; allowed: 0.016 to 0.4 s, the length of a.mat" in message
+    part = refusal(bring, GOOD + "cut_s = 0.3\nto_s = 0.2\n", tmp_path)
+    assert "cut_s = 0.3; allowed: 0.016 to 0.2 s, the part from from_s to to_s of a.mat" in part
     assert len(bring(GOOD + "cut_s = 0.016\n").labels) == 25  # of 400 samples
 
 

@@ -186,6 +186,12 @@ def test_the_known_size_is_that_of_the_surest_other_record_of_the_bearing(scored
     # other one's for the clean record.
     after = [1.04 * (1 / 1.02) ** 0.05 - 1.0, 1.0 - 0.97 * (1 / 1.02) ** 0.05, 1.02 * (1 / 0.97) ** 0.05 - 1.0]
     assert found.arc_error_with == pytest.approx(sum(after) / 3)
+    # Where a size given by the user has corrected them, the answers themselves are compared.
+    corrected = [
+        replace(one, answer=replace(one.answer, extent=1.1 * one.answer.extent, known_size_factor=1.1))
+        for one in (unsure, sure, clean)
+    ]
+    assert summarise(corrected, True).known_size_of_another_record.arc_error_with == pytest.approx(sum(after) / 3)
 
 
 @pytest.mark.parametrize(("silent", "met"), [(40, True), (39, True), (20, False)])

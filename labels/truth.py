@@ -113,7 +113,7 @@ def _crossings(scene: Scene, defect: int, duration: float) -> tuple[Index, Array
     spall = scene.spalls[defect]
     half = spall.extent / 2.0
     # Outside the record the cage goes on at its mean speed, so no pass under way at either end takes longer than this.
-    speed = abs(scene.cage_of(spall.row).mean_speed - scene.race_speed(spall.race))
+    speed = scene.crossing_speed(spall)
     if speed == 0.0:  # a cage that turns with the race
         return np.zeros(0, np.int16), np.zeros(0), np.zeros(0), np.zeros(0)
     margin = spall.extent / speed

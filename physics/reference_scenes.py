@@ -43,7 +43,8 @@ def reference_scene(
 ) -> Scene:
     """The scene of that name over `duration` (s); InvalidParameter for an unknown one.
 
-    With a `slip_seed` the cage slips by 1 %, with one ball pass of correlation time.
+    With a `slip_seed` the cage slips by 1 %, with one ball pass of correlation time. `roughness_seed` draws the floor
+    of the rough scenes; shaft and cage turn at `speed_factor` times the rated speed, under the rated load.
     """
     require_one_of("name", name, REFERENCE_SCENES)
     machine = rig(RIGS[name[:1]])

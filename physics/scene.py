@@ -122,6 +122,14 @@ class Scene:
         require_count("row", row, 1, self.rig.bearing.rows)
         return self.cages[min(row, len(self.cages)) - 1]
 
+    def samples(self, rate: float) -> int:
+        """Samples at `rate` (Hz) in the simulated time."""
+        return round(self.duration * rate)
+
+    def crossing_speed(self, spall: Spall) -> float:
+        """Mean angular speed (rad/s, above 0) at which the balls of its row pass a spall."""
+        return abs(self.cage_of(spall.row).mean_speed - self.race_speed(spall.race))
+
     def race_speed(self, race: str) -> float:
         """Angular speed of a race, rad/s: the shaft's for the inner race, zero for the outer one.
 

@@ -87,7 +87,7 @@ def _respond_to_lead_in(scene: Scene, rate: float, solution: Solution, keep: Kep
 
 def _require_known_time(scene: Scene, rate: float, before: int) -> None:
     """Raise SimulationFailed unless `scene` lasts a sample of `rate` (Hz) and its slip is known `before` samples."""
-    if _samples(scene, rate) < 1:
+    if scene.samples(rate) < 1:
         raise SimulationFailed(
             Outcome.BAD_REQUEST, f"a duration of {scene.duration:g} s holds no sample at {rate:g} Hz"
         )
@@ -97,10 +97,6 @@ def _require_known_time(scene: Scene, rate: float, before: int) -> None:
             Outcome.BAD_REQUEST,
             f"a lead-in of {before / rate:.4g} s; the cage's slip is known from {known_from:g} s on",
         )
-
-
-def _samples(scene: Scene, rate: float) -> int:
-    return round(scene.duration * rate)
 
 
 def _respond(scene: Scene, rate: float, solution: Solution, keep: Kept) -> Trace:
@@ -117,12 +113,12 @@ def _respond_simply(scene: Scene, rate: float, solution: Simpler, keep: Kept) ->
     simpler = SIMPLER_MODELS[solution.model]
     factor = oversampling(scene, rate) if simpler.rings else 1
     longer, _ = _looking_ahead(scene, rate, factor)
-    return _lowered(simpler.respond(longer, rate * factor, keep), rate, factor, _samples(scene, rate))
+    return _lowered(simpler.respond(longer, rate * factor, keep), rate, factor, scene.samples(rate))
 
 
 def _respond_accurately(scene: Scene, rate: float, solution: Accurate, keep: Kept) -> Trace:
     """By steps that the modal method chooses."""
-    samples, accuracy = _samples(scene, rate), solution.accuracy
+    samples, accuracy = scene.samples(rate), solution.accuracy
     rest, factor = resting(scene), oversampling(scene, rate, keep.fastest_path)
     longer, marched = _looking_ahead(scene, rate, factor)
     alone = keep == ACCELERATION_ALONE
@@ -146,7 +142,7 @@ def _respond_accurately(scene: Scene, rate: float, solution: Accurate, keep: Kep
 
 def _respond_by_steps(scene: Scene, rate: float, solution: FixedSteps | HalvedSteps | Reference, keep: Kept) -> Trace:
     """By fixed steps, or by the slow reference method."""
-    samples = _samples(scene, rate)
+    samples = scene.samples(rate)
     rest, factor = require_equilibrium(scene, np.zeros(1)), oversampling(scene, rate, keep.fastest_path)
     longer, marched = _looking_ahead(scene, rate, factor)
     raised = (rate * factor, marched)
@@ -165,11 +161,11 @@ def _looking_ahead(scene: Scene, rate: float, factor: int) -> tuple[Scene, int]:
     """The scene that is marched at a `factor` times the `rate` (Hz), and for how many samples: it lasts longer by what
     the low-pass behind it looks ahead, if there is one."""
     if factor == 1:
-        return scene, _samples(scene, rate)
+        return scene, scene.samples(rate)
     ahead = HALF_LENGTH_SAMPLES / rate
     second = None if scene.second_cage is None else scene.second_cage.going_on(ahead)
     longer = replace(scene, cage=scene.cage.going_on(ahead), second_cage=second)
-    return longer, (_samples(scene, rate) + HALF_LENGTH_SAMPLES) * factor
+    return longer, (scene.samples(rate) + HALF_LENGTH_SAMPLES) * factor
 
 
 def _lowered(trace: Trace, rate: float, factor: int, samples: int) -> Trace:

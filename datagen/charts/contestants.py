@@ -146,7 +146,7 @@ def _of_states(scene: Scene, rate: float, result: Raw) -> Response:
 
 def _compiled(pair: str, kind: str, tolerance: float) -> Contestant:
     def run(scene: Scene, rate: float) -> Raw:
-        samples = round(scene.duration * rate)
+        samples = scene.samples(rate)
         return integrate_compiled(scene, pair, kind, start_of(scene), rate, samples, tolerance)[0]
 
     return Contestant(COMPILED, f"compiled {pair}, {kind}", f"tolerance {tolerance:g}", run, _of_states)
@@ -154,7 +154,7 @@ def _compiled(pair: str, kind: str, tolerance: float) -> Contestant:
 
 def _unlocated(kind: str, substeps: int) -> Contestant:
     def run(scene: Scene, rate: float) -> Raw:
-        samples = round(scene.duration * rate)
+        samples = scene.samples(rate)
         return integrate_by_fixed_steps(scene, kind, start_of(scene), rate, samples, substeps)
 
     return Contestant(COMPILED, f"compiled RK4, {kind}", f"{substeps} steps a sample", run, _of_states)
@@ -166,7 +166,7 @@ def _numbalsoda(solver: str, kind: str, tolerance: float) -> Contestant:
     solve = NUMBALSODA[solver]
 
     def run(scene: Scene, rate: float) -> Raw:
-        start, time = start_of(scene), np.arange(round(scene.duration * rate)) / rate
+        start, time = start_of(scene), np.arange(scene.samples(rate)) / rate
         slopes = c_right_hand_side(scene, kind, start)
         deviation, done = getattr(numbalsoda, solve)(
             slopes.address, np.zeros(12), time, slopes.data, tolerance, tolerance, MOST_STEPS_A_SAMPLE
@@ -181,7 +181,7 @@ def _scipy(solver: str, kind: str, tolerance: float) -> Contestant:
 
     def run(scene: Scene, rate: float) -> Raw:
         slope, model = right_hand_side(scene, kind)
-        start, time = start_of(scene), np.arange(round(scene.duration * rate)) / rate
+        start, time = start_of(scene), np.arange(scene.samples(rate)) / rate
         solution = solve_ivp(
             lambda t, deviation: slope(model, t, start + deviation),
             (0.0, time[-1]),

@@ -183,7 +183,7 @@ def _response(scene: Scene, method: str, step: float) -> Array:
     """Acceleration at the ends of steps of `step` samples, or at the samples if steps are shorter."""
     rate = RATE / max(1.0, step)
     substeps = max(1, round(1.0 / step))
-    grid = Grid(round(scene.duration * rate), substeps, 1.0 / (rate * substeps))
+    grid = Grid(scene.samples(rate), substeps, 1.0 / (rate * substeps))
     return respond(scene, start_of(scene), grid, method).acceleration
 
 

@@ -103,7 +103,7 @@ def wave_cell(track: Track, angle: float) -> tuple[int, int, float]:
 
 @njit_inline
 def hindmost(track: Track, spall: int, angle: float, time: float, travel: float) -> tuple[float, float, float]:
-    """First of the balls that touch a spall while they cover `travel` (rad) from the cage `angle` (rad) at `time` (s).
+    """The hindmost ball over a spall while balls cover `travel` (rad) from the cage `angle` (rad) at `time` (s).
 
     Its arc (rad), how many spacings it is ahead of ball 1 of its row, and the largest arc (rad) that any ball may have;
     the others are ahead of it by whole spacings.

@@ -33,7 +33,7 @@ class Output(NamedTuple):
     """Arrays to fill: `acceleration` (T, 2); of zero length if not wanted: `state` (T, 12), `force` (T, M) and `outer`
     (3, T, 2), the outer ring's displacement, velocity and acceleration along x and y;
     `change_time` (E,), `change_ball` (E,), `change_made` (E,): the log of contact changes; `initial` (M,): the first
-    contact set; `tally` (3,); `touched` (2,); `budget` (1,): sum of the squares of the momenta (N s) by which steps are
+    contact set; `tally` (3,); `touched` (2,); `spent` (1,): sum of the squares of the momenta (N s) by which steps are
     wrong, if the method knows."""
 
     acceleration: Array
@@ -46,7 +46,7 @@ class Output(NamedTuple):
     initial: Array
     tally: Index
     touched: Array
-    budget: Array
+    spent: Array
 
 
 @njit_lean

@@ -63,7 +63,7 @@ def _edges_of_spall(scene: Scene, index: int) -> list[Edges]:
     before the record and behind it."""
     spall, bearing = scene.spalls[index], scene.rig.bearing
     path = build_path(spall, bearing)
-    speed = abs(scene.cage_of(spall.row).mean_speed - scene.race_speed(spall.race))
+    speed = scene.crossing_speed(spall)
     if speed == 0.0:  # a cage that turns with the race
         return []
     cos_alpha = math.cos(bearing.contact_angle)
@@ -177,7 +177,7 @@ def impulse_response(scene: Scene, rate: float, keep: Kept = ACCELERATION_ALONE)
     their load at an edge, or begin to get it back; otherwise balls count as touching, also outside the load zone.
     Raises SimulationFailed where no position carries the load.
     """
-    samples, rig = round(scene.duration * rate), scene.rig
+    samples, rig = scene.samples(rate), scene.rig
     stiffness, film = _mean_contacts(scene)
     edges = edges_of(scene)
     squared, shapes = eigh(coupled_matrix(rig.stiffness_matrix(), stiffness), rig.mass_matrix())

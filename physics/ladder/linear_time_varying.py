@@ -207,7 +207,7 @@ def linear_response(scene: Scene, rate: float, keep: Kept) -> Trace:
     Contact changes are those of the quasi-static positions, known to half a sample. Raises SimulationFailed where no
     position carries the load, or the contacts are too stiff for the steps that can be made.
     """
-    samples = round(scene.duration * rate)
+    samples = scene.samples(rate)
     contacts, motion = assemble(scene), motion_model(scene)
     rest = require_equilibrium(scene, np.zeros(1))
     substeps = stable_substeps(scene, METHODS[METHOD], rest, rate)

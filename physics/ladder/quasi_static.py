@@ -14,9 +14,8 @@ from physics.ladder.contact_sets import changes_between_samples
 from physics.ladder.model import Model
 from physics.scene import Scene
 from physics.statics.load_distribution import load_vector
-from physics.statics.rest import elastic
+from physics.statics.rest import EXACT, elastic
 from physics.statics.rest_series import MARK, PLACE_X, PLACE_Y, TOLERANCE, coarsest_stride, rest_series
-from physics.statics.successive_rest import EXACT
 from physics.trace import Kept, Trace
 
 
@@ -28,7 +27,7 @@ def quasi_static_response(scene: Scene, rate: float, keep: Kept) -> Trace:
     a sample. For them alone the shaft's place need not be solved at every instant. Raises SimulationFailed where no
     position carries the load.
     """
-    samples, step = round(scene.duration * rate), 1.0 / rate
+    samples, step = scene.samples(rate), 1.0 / rate
     time = np.arange(samples) / rate
     everywhere = keep.state or keep.force
     stride, tolerance = (1, EXACT) if everywhere else (coarsest_stride(scene, step), TOLERANCE)

@@ -88,7 +88,7 @@ def steps_over_spalls(scene: Scene, rate: float) -> int:
     fastest = 0.0
     for spall in scene.spalls:
         floor = spall.extent - spall.entry_taper - spall.exit_taper
-        speed = abs(scene.cage_of(spall.row).mean_speed - scene.race_speed(spall.race))
+        speed = scene.crossing_speed(spall)
         pieces = [piece for piece in (spall.entry_taper, floor, spall.exit_taper) if piece > ROUNDING * spall.extent]
         fastest = max(fastest, speed / min(pieces))
     return max(1, math.ceil(STEPS_OF_A_PIECE * fastest / rate))

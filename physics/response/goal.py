@@ -122,7 +122,7 @@ def perturbed_response(case: Case, grid: ModalGrid, go_on: GoOn = March.go_on) -
     """
     push = max(grid.least, grid.share * math.sqrt(grid.seen))
     output = go_on(March(case, grid.samples, push=push), grid)
-    output.budget[0] += push * push
+    output.spent[0] += push * push
     return output
 
 

@@ -48,7 +48,7 @@ def empty_output(contacts: Contacts, samples: int, capacity: int, keep: Kept) ->
         initial=np.zeros(balls),
         tally=np.zeros(TALLY_ENTRIES, dtype=np.int64),
         touched=np.zeros(2),
-        budget=np.zeros(1),
+        spent=np.zeros(1),
     )
 
 

@@ -85,7 +85,7 @@ class Case:
     def pushed(self, output: Output) -> float:
         """What the errors of the steps of `output` add up to in the resonator's acceleration (m/s², RMS of both
         axes)."""
-        return math.sqrt(0.5 * self.ringing * float(output.budget[0]) * self.rate / output.acceleration.shape[0])
+        return math.sqrt(0.5 * self.ringing * float(output.spent[0]) * self.rate / output.acceleration.shape[0])
 
 
 def case_of(scene: Scene, rest: Equilibrium, rate: float) -> Case:

@@ -25,8 +25,9 @@ from physics.contact.forces import (
 
 LOADED, NOT_UNIQUE, NOT_LOADED, NO_EQUILIBRIUM = 0, 1, 2, 3
 
-# Unbalanced force over the load at which the search ends, and up to which what it ended with is an equilibrium.
-TOLERANCE, ACCEPTABLE = 1e-11, 1e-7
+# Unbalanced force over the load at which a search ends, and up to which what it ended with is an equilibrium; the
+# stiffness is wrong by no more than about that share.
+EXACT, ACCEPTABLE = 1e-11, 1e-7
 # The stiffness is singular if its determinant is below this share of its trace squared.
 SINGULAR = 1e-9
 # Without a load, balls compressed by less than this (m) are free.
@@ -114,7 +115,7 @@ def solve_at(
     sums = elastic(contacts, dx, dy)
     for _ in range(MOST_ITERATIONS):
         gx, gy = load_x - sums.force_x, load_y - sums.force_y
-        if _ends(sums, law, load, gx, gy, TOLERANCE):
+        if _ends(sums, law, load, gx, gy, EXACT):
             break
         step_x, step_y = _newton_step(sums, law, load, gx, gy, 0.5 * math.hypot(dx, dy))
         x, y, sums = _descend(contacts, load_x, load_y, dx, dy, step_x, step_y, sums)

@@ -11,8 +11,8 @@ from physics.contact.forces import Contacts, set_time
 from physics.motion import MotionModel, motion_model
 from physics.scene import Scene
 from physics.statics.load_distribution import require_carried
-from physics.statics.rest import elastic
-from physics.statics.successive_rest import EXACT, expected, rest_at
+from physics.statics.rest import EXACT, elastic
+from physics.statics.successive_rest import expected, rest_at
 
 
 def stiffness_trace(scene: Scene, time: Array, tolerance: float = EXACT) -> Array:

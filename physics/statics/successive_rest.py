@@ -10,8 +10,6 @@ from physics.statics.rest import LARGEST_MOVE, NO_EQUILIBRIUM, ElasticSums, elas
 
 # A shaft that moved by less than this share of its displacement is expected to move on as far.
 NEARBY = 0.05
-# Unbalanced force over the load at which a search ends; the stiffness is wrong by no more than about that share.
-EXACT = 1e-11
 # From below this share Newton's method needs no safeguards, if the determinant of the stiffness is above that share of
 # its trace squared; and how many steps of it are made.
 NEAR, REGULAR, MOST_STEPS = 1e-2, 1e-6, 4

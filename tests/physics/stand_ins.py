@@ -32,7 +32,7 @@ def a_case(memory=0.0):
         rate=RATE,
         push=PUSH,
         memory=memory,
-        pushed=lambda output: math.sqrt(0.5 * ringing * output.budget[0] * RATE / output.acceleration.shape[0]),
+        pushed=lambda output: math.sqrt(0.5 * ringing * output.spent[0] * RATE / output.acceleration.shape[0]),
     )
 
 
@@ -50,7 +50,7 @@ def an_output(acceleration, pushed=0.0, steps=100, initial=(1.0, 1.0, 0.0), made
         initial=np.array(initial),
         tally=np.array([logged, 0, steps]),
         touched=np.zeros(2),
-        budget=np.array([2.0 * 0.3 * PUSH**2 * pushed**2 * len(acceleration)]),
+        spent=np.array([2.0 * 0.3 * PUSH**2 * pushed**2 * len(acceleration)]),
     )
 
 

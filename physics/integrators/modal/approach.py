@@ -18,7 +18,6 @@ from physics.integrators.modal.judgement import DOUBLED, REJECTED, error_of, may
 from physics.integrators.modal.memory import (
     AT_WALL,
     BALL,
-    BUDGET,
     EXACT,
     GRADED,
     LEFT,
@@ -27,6 +26,7 @@ from physics.integrators.modal.memory import (
     ON_WAY,
     PACE,
     PASSED,
+    SPENT,
     TIME,
     TOLERANCE,
     TRIED,
@@ -71,7 +71,7 @@ def meet_change(
     unit = grid.interval / UNITS
     allowed = CHANGE_SHARE * clock[TOLERANCE]
     clock[GRADED] = max(graded_length(law, speed, allowed), unit / UNITS)
-    clock[BUDGET] += (CHANGE_FACTOR * clock[TOLERANCE]) ** 2
+    clock[SPENT] += (CHANGE_FACTOR * clock[TOLERANCE]) ** 2
     jump = UNIT_ERROR * unit * law.damping * abs(speed)
     if losing and marks[ON_GRID] == 1 and marks[PASSED] >= marks[EXACT] and jump < allowed and clock[GRADED] > unit:
         left = unit * max(1, int(left / unit + 0.5))

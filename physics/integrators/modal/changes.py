@@ -13,12 +13,12 @@ from physics.integrators.modal.location import locate
 from physics.integrators.modal.memory import (
     BALL,
     BEFORE,
-    BUDGET,
     CAREFUL,
     LEFT,
     NO_BALL,
     PACE,
     PASSED,
+    SPENT,
     TIME,
     TRIED,
     UNITS,
@@ -89,7 +89,7 @@ def look(
         return AGAIN
     if marks[TRIED] >= MOST_CHANGES_PER_STEP:
         if contradicted:
-            clock[BUDGET] += left_out(contacts, trial.step) ** 2
+            clock[SPENT] += left_out(contacts, trial.step) ** 2
             change_unlocated(contacts, trial.time + trial.step, output)
         return TAKE
     share, ball, speed = locate(contacts, flow, memory, trial, grazing)

@@ -11,10 +11,10 @@ from physics.contact.forces import ACTIVE, CLOSING, COMPRESSION, Contacts, law_p
 from physics.integrators.modal.bumps import HERMITE_ERROR, passed_over
 from physics.integrators.modal.memory import (
     BEFORE,
-    BUDGET,
     BUMPY,
     PACE,
     SHORTEST,
+    SPENT,
     SQUARES,
     TIME,
     TOLERANCE,
@@ -45,7 +45,7 @@ def set_tolerance(grid: ModalGrid, memory: Memory, samples: int) -> None:
     square = (grid.seen * grid.seen_samples + clock[SQUARES]) / (grid.seen_samples + samples)
     tolerance = max(grid.least, grid.share * math.sqrt(square))
     allowed = grid.spending * tolerance * tolerance
-    spent = (clock[BUDGET] + allowed * BUDGET_SAMPLES) / (allowed * (samples + BUDGET_SAMPLES))
+    spent = (clock[SPENT] + allowed * BUDGET_SAMPLES) / (allowed * (samples + BUDGET_SAMPLES))
     clock[TOLERANCE] = tolerance / min(max(spent, LEAST_SPENT), MOST_SPENT)
 
 
@@ -140,7 +140,7 @@ def judge(contacts: Contacts, grid: ModalGrid, memory: Memory, step: float) -> b
     if error > REJECTED * tolerance and may_shrink(grid, step):
         clock[PACE] = 0.5 * step
         return False
-    clock[BUDGET] += error * error
+    clock[SPENT] += error * error
     if error > tolerance:
         clock[PACE] = LESS * step
     elif clock[BEFORE] == 0.0:

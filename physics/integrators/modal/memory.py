@@ -35,7 +35,7 @@ CLOCK_ENTRIES = 9
     ON_WAY,  # longest step on the way to it, s
     TOLERANCE,  # N s
     SQUARES,  # sum of the squares of the acceleration, m²/s⁴
-    BUDGET,  # sum of the squares of the errors, N² s²
+    SPENT,  # sum of the squares of the errors, N² s²
 ) = range(CLOCK_ENTRIES)
 # Entries of `marks`.
 MARKS_ENTRIES = 11

@@ -33,7 +33,6 @@ from physics.integrators.modal.memory import (
     BALL,
     BEFORE,
     BETWEEN,
-    BUDGET,
     BUMPY,
     LEFT,
     NO_BALL,
@@ -41,6 +40,7 @@ from physics.integrators.modal.memory import (
     PACE,
     PASSED,
     RETUNE,
+    SPENT,
     SQUARES,
     STOP,
     TIME,
@@ -286,5 +286,5 @@ def march_modal(
             return NOT_FINITE
     for part in range(now.size):
         memory.states[0, part] = now[part]
-    output.budget[0] = clock[BUDGET]
+    output.spent[0] = clock[SPENT]
     return DONE if output.tally[LOGGED] < room else LOG_FULL

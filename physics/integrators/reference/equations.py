@@ -20,7 +20,8 @@ Turn = tuple[tuple[float, float], tuple[float, float]]
 
 # Columns of `balls`: row from 0, angle ahead of the cage (rad), radial deviation (m).
 BALL_ROW, AHEAD, DEVIATION = range(3)
-# Columns of `spalls`: row from 0, angle (rad), travel sign, race speed (rad/s), first and last entry in `path`.
+# Columns of `spalls`: row from 0, angle (rad), travel sign, race speed (rad/s), its first entry in `path` and the first
+# behind it.
 SPALL_ROW, ANGLE, SIGN, SPALL_SPEED, FIRST, LAST = range(6)
 # Columns of `waves`: order, amplitude (m), phase (rad), race speed (rad/s).
 ORDER, AMPLITUDE, PHASE, WAVE_SPEED = range(4)

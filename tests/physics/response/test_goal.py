@@ -33,7 +33,7 @@ def test_steps_that_spend_what_the_grid_grants_leave_three_quarters_of_the_error
     grid = goal.aimed(4.0, aim, sensitivity)
     assert math.sqrt(grid.seen / 2.0) == pytest.approx(2.0)  # of both axes, a signal of 2 m/s² along each
     one_step = grid.share * math.sqrt(grid.seen)
-    spent = an_output(ONES)._replace(budget=np.array([SAMPLES * grid.spending * one_step**2]))
+    spent = an_output(ONES)._replace(spent=np.array([SAMPLES * grid.spending * one_step**2]))
     assert goal.error(spent, sensitivity) == pytest.approx(0.75 * goal.allowed(2.0), rel=1e-12)
 
 
@@ -65,7 +65,7 @@ def test_a_coarse_response_sets_out_with_one_error_of_a_step_which_counts():
     output = a_goal(world).coarse(2.0)
     push = 2e-3 * PUSH  # of a step for an error of a thousandth of 2 m/s²
     assert world.marches[0].push == pytest.approx(push, rel=1e-12)
-    assert output.budget[0] == pytest.approx(push**2, rel=1e-12)
+    assert output.spent[0] == pytest.approx(push**2, rel=1e-12)
     assert a_goal().begin().push == 0.0
 
 

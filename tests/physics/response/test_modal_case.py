@@ -71,7 +71,7 @@ def test_two_marches_of_which_one_was_pushed_are_as_far_apart_as_such_errors_are
     case, samples = case_of(scene, resting(scene), RATE), round(0.05 * RATE)
     grid = steady(case, samples, 1e-7, SIZE)
     alone, pushed = March(case, samples).go_on(grid), March(case, samples, push=push).go_on(grid)
-    pushed.budget[0] = push**2
+    pushed.spent[0] = push**2
     # A push half-way between x and y; what is said is of the direction that rings more.
     assert rms_distance(alone, pushed) == pytest.approx(case.pushed(pushed), rel=0.04)
 

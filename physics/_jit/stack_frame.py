@@ -1,9 +1,9 @@
 """How a large kernel reads its arguments from the stack.
 
 A kernel of dozens of arrays has kilobytes of arguments there, and beside them kilobytes of values for which it has no
-register. Usually it addresses both by the stack pointer. Zen 5 takes a load for one of what was just stored if the two
-displacements differ by a multiple of 1024, and mends it tens of cycles later: by chance of where the values lie, the
-march was a quarter slower.
+register. Usually it addresses both by the stack pointer. On a processor of AMD's Zen 5, loads then stood still for tens
+of cycles where something had just been stored a multiple of 1024 bytes away: by chance of where the values lay, the
+march was a quarter slower (docs/pipeline.md).
 """
 
 from __future__ import annotations

@@ -127,7 +127,7 @@ class Scene:
         return round(self.duration * rate)
 
     def crossing_speed(self, spall: Spall) -> float:
-        """Mean angular speed (rad/s, above 0) at which the balls of its row pass a spall."""
+        """Mean angular speed (rad/s, 0 or above) at which the balls of its row pass a spall."""
         return abs(self.cage_of(spall.row).mean_speed - self.race_speed(spall.race))
 
     def race_speed(self, race: str) -> float:

@@ -137,8 +137,8 @@ def impulses(streams: Streams, size: int, rate: float, kinematics: Kinematics, l
 
 
 def _pass_times(of_record: np.random.Generator, kinematics: Kinematics, location: str, duration: float) -> Array:
-    """Times (s) at which balls hit a defect, with random slip and jitter: from before the start of
-    a `duration` (s) to about its end: jitter may leave out the last one or two."""
+    """Times (s) at which balls hit a defect, with random slip and jitter, from before the start of a
+    `duration` (s) to about its end; jitter may leave out the last one or two."""
     slip = of_record.uniform(0.0, 0.02)
     cage = kinematics.ftf * (1.0 - slip)
     order = kinematics.balls * (cage if location == "outer" else 1.0 - cage)

@@ -14,8 +14,8 @@ Kernel = TypeVar("Kernel", bound=Callable[..., Any])
 _decorator: Any = numba.njit
 USUAL: dict[str, Any] = {"cache": True, "error_model": "numpy", "nogil": True, "no_cfunc_wrapper": True}
 LEAN: dict[str, Any] = {**USUAL, "_nrt": False}
-# A kernel around a part that was read from the disk is other machine code than around one compiled with it, and up to a
-# third slower. So parts are not kept: what is kept of a kernel holds them.
+# Parts have no files of their own: around one that was read from the disk, a kernel would be other machine code than
+# around one compiled with it, and so depend on what was compiled before.
 PART: dict[str, Any] = {**LEAN, "cache": False, "no_cpython_wrapper": True}
 
 

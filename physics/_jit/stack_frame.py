@@ -26,7 +26,7 @@ def _alignment(_: Any) -> Any:
     def generate(context: Any, builder: Any, *_: Any) -> Any:
         attributes = builder.function.attributes
         attributes.alignstack = ALIGNMENT
-        # llvmlite writes the alignment beside others only, and this one holds for every kernel.
+        # llvmlite writes an alignment only beside another attribute. Kernels return a status and never unwind.
         attributes.add("nounwind")
         return context.get_dummy_value()
 

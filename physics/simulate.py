@@ -18,7 +18,7 @@ from physics.response.asked import Asked
 from physics.response.fixed_steps import respond_by_fixed_steps
 from physics.response.lead_in import from_start, respond_behind, started_earlier, starting_at
 from physics.response.lowered import respond_lowered
-from physics.response.modal_case import mean_flow, resting
+from physics.response.modal_case import mean_flow
 from physics.response.oversampling import oversampling
 from physics.response.periodic import METHOD as REPEATED
 from physics.response.periodic import respond_until_repeated, worth_repeating
@@ -27,7 +27,7 @@ from physics.response.silence import silence
 from physics.response.single_march import respond_by_reference
 from physics.rms import rms
 from physics.scene import Scene
-from physics.statics.load_distribution import require_equilibrium
+from physics.statics.load_distribution import resting
 from physics.trace import ACCELERATION_ALONE, KEEPABLE, Kept, Trace
 
 # A response that is repeated must keep this share of its RMS where its rate is lowered.
@@ -143,7 +143,7 @@ def _respond_accurately(scene: Scene, rate: float, solution: Accurate, keep: Kep
 def _respond_by_steps(scene: Scene, rate: float, solution: FixedSteps | HalvedSteps | Reference, keep: Kept) -> Trace:
     """By fixed steps, or by the slow reference method."""
     samples = scene.samples(rate)
-    rest, factor = require_equilibrium(scene, np.zeros(1)), oversampling(scene, rate, keep.fastest_path)
+    rest, factor = resting(scene), oversampling(scene, rate, keep.fastest_path)
     longer, marched = _looking_ahead(scene, rate, factor)
     raised = (rate * factor, marched)
     if isinstance(solution, Reference):

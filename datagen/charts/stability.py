@@ -20,12 +20,11 @@ from physics.outcome import SimulationFailed
 from physics.reference_scenes import reference_scene
 from physics.response.adaptive import respond_accurately
 from physics.response.asked import Asked
-from physics.response.modal_case import resting
 from physics.response.single_march import respond
 from physics.response.stability import longest_stable_step, stable_substeps
 from physics.rms import relative_error
 from physics.scene import Scene
-from physics.statics.load_distribution import equilibrium
+from physics.statics.load_distribution import equilibrium, resting
 
 RATE, DURATION = 65536.0, 0.04
 # Steps of 8 samples to 1/16 of one: samples a step above one, steps a sample below.

@@ -37,7 +37,7 @@ from physics.motion import MotionModel, motion_model, resonator_acceleration, st
 from physics.outcome import Outcome, SimulationFailed
 from physics.response.stability import require_stable, stable_substeps
 from physics.scene import Scene
-from physics.statics.load_distribution import load_vector, refuse, require_equilibrium
+from physics.statics.load_distribution import load_vector, refuse, resting
 from physics.statics.rest import NO_EQUILIBRIUM, solve_at
 from physics.trace import ContactChanges, Kept, Trace
 
@@ -209,7 +209,7 @@ def linear_response(scene: Scene, rate: float, keep: Kept) -> Trace:
     """
     samples = scene.samples(rate)
     contacts, motion = assemble(scene), motion_model(scene)
-    rest = require_equilibrium(scene, np.zeros(1))
+    rest = resting(scene)
     substeps = stable_substeps(scene, METHODS[METHOD], rest, rate)
     require_stable(METHODS[METHOD], rate, substeps, substeps)
     time, table, touching = _table(scene, samples, rate)

@@ -41,13 +41,13 @@ def respond_by_fixed_steps(
     accuracy: float | None,
     keep: Kept,
 ) -> Trace:
-    """Trace of `scene` at k / rate from its `rest` at t = 0 by `substeps` steps a sample of `method`.
+    """Trace of `scene` at k / rate from the first of the positions `rest` by `substeps` steps a sample of `method`.
 
-    None stands for the fewest that are stable and resolve the fastest mode. They are doubled until the response keeps
-    the `accuracy`, which may be infinite, by what one of half the step makes of it, or of an even shorter one where
-    `steps_over_spalls` asks for that, or one by another method where these are too many. Without an accuracy there
-    is no second response, and no estimate of the error. Raises SimulationFailed for steps that are not stable, and
-    where MOST_SUBSTEPS do not keep the accuracy.
+    None stands for the fewest that are stable in all of these positions and resolve the fastest mode. They are doubled
+    until the response keeps the `accuracy`, which may be infinite, by what one of half the step makes of it, or of an
+    even shorter one where `steps_over_spalls` asks for that, or one by another method where these are too many. Without
+    an accuracy there is no second response, and no estimate of the error. Raises SimulationFailed for steps that are
+    not stable, and where MOST_SUBSTEPS do not keep the accuracy.
     """
     start = starting_state(motion_model(scene), rest.displacement[0])
     least = stable_substeps(scene, METHODS[method], rest, rate)

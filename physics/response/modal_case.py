@@ -19,12 +19,11 @@ from physics.integrators.modal.tables import tables_for
 from physics.integrators.output import LOG_FULL, Output
 from physics.integrators.stops import Stops
 from physics.motion import MotionModel, motion_model, starting_state
-from physics.outcome import StaticOutcome
 from physics.response.change_log import room_for_changes
 from physics.response.kinks import known_kinks
 from physics.response.march_output import empty_output, require_done
 from physics.scene import Scene
-from physics.statics.load_distribution import Equilibrium, equilibrium, instants_without_period, refuse
+from physics.statics.load_distribution import Equilibrium
 from physics.trace import ACCELERATION_ALONE, Kept
 
 # Steps and contact changes a sample that share the error: their pushes add up like noise.
@@ -95,15 +94,6 @@ def case_of(scene: Scene, rest: Equilibrium, rate: float) -> Case:
     memory = memory_of_errors(flow, rest.stiffness[:, :2].std(axis=0))
     stops = known_kinks(scene, contacts, STRIDES[-1] / rate)
     return Case(scene, flow, memory, contacts, stops, start, rate)
-
-
-def resting(scene: Scene) -> Equilibrium:
-    """Quasi-static positions of `scene` from t = 0 to its end; raises SimulationFailed if none carries the load at
-    t = 0."""
-    rest = equilibrium(scene, instants_without_period(scene.duration))
-    if rest.outcome(0) is StaticOutcome.NO_EQUILIBRIUM:
-        refuse(scene, 0.0)
-    return rest
 
 
 def mean_flow(motion: MotionModel, rest: Equilibrium) -> LinearFlow:

@@ -54,8 +54,14 @@ def longest_stable_step(rig: Rig, method: Method, stiffness: Array, damping: Arr
 
 
 def stable_substeps(scene: Scene, method: Method, rest: Equilibrium, rate: float) -> int:
-    """Fewest steps a sample at which `method` is stable in the quasi-static position `rest` at t = 0."""
-    longest = longest_stable_step(scene.rig, method, rest.stiffness[0], rest.damping[0])
+    """Fewest steps a sample at which `method` is stable in every one of the quasi-static positions `rest`.
+
+    A light load is carried by one ball of a row or by two, by turns, and then by one film or by two.
+    """
+    longest = min(
+        longest_stable_step(scene.rig, method, stiffness, damping)
+        for stiffness, damping in zip(rest.stiffness, rest.damping, strict=True)
+    )
     return max(1, math.ceil(1.0 / (rate * longest) - 1e-9))
 
 

@@ -112,6 +112,15 @@ def _fill_loads(motion: MotionModel, time: Array, load: Array) -> None:
         load[k, 0], load[k, 1] = outer_load(motion, time[k])
 
 
+def resting(scene: Scene) -> Equilibrium:
+    """Quasi-static positions of `scene` from t = 0 to its end; raises SimulationFailed if none carries the load at
+    t = 0."""
+    rest = equilibrium(scene, instants_without_period(scene.duration))
+    if rest.outcome(0) is StaticOutcome.NO_EQUILIBRIUM:
+        refuse(scene, 0.0)
+    return rest
+
+
 def require_equilibrium(scene: Scene, time: Array) -> Equilibrium:
     """The `equilibrium` at the times (T,), s; raises SimulationFailed where no position carries the load."""
     rest = equilibrium(scene, time)

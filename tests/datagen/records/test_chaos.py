@@ -11,10 +11,10 @@ from labels.description import label_values
 from physics.request import FixedSteps
 from physics.response.adaptive import respond_accurately
 from physics.response.asked import Asked
-from physics.response.modal_case import resting
 from physics.response.oversampling import oversampling
 from physics.rms import rms
 from physics.simulate import simulate
+from physics.statics.load_distribution import resting
 
 LOOSE_RECORD = 110  # of the wide corpus: a change of contact every 7 ms and ball
 

@@ -8,9 +8,10 @@ from datagen.recipes.recipe import load_recipe
 from datagen.scenarios.sampling import draw_scenario
 from physics.integrators.modal.memory import STRIDES, ModalGrid
 from physics.request import Accurate, FixedSteps
-from physics.response.modal_case import March, case_of, resting
+from physics.response.modal_case import March, case_of
 from physics.rms import relative_error
 from physics.simulate import simulate
+from physics.statics.load_distribution import resting
 
 
 def _drawn(seed, record):

@@ -64,11 +64,11 @@ from physics.motion import motion_model, starting_state
 from physics.paths.profile import build_path
 from physics.request import Accurate, FixedSteps, Reference
 from physics.response.kinks import known_kinks
-from physics.response.modal_case import March, case_of, mean_flow, resting
+from physics.response.modal_case import March, case_of, mean_flow
 from physics.response.single_march import empty_output
 from physics.rms import relative_error, rms
 from physics.simulate import simulate
-from physics.statics.load_distribution import equilibrium
+from physics.statics.load_distribution import equilibrium, resting
 from physics.trace import ACCELERATION_ALONE, Kept
 
 RATE = 65536.0

@@ -11,9 +11,10 @@ from physics.motion import motion_model
 from physics.reference_scenes import reference_scene
 from physics.request import Accurate, LeadIn
 from physics.response.lowered import respond_lowered
-from physics.response.modal_case import mean_flow, resting
+from physics.response.modal_case import mean_flow
 from physics.rms import relative_error
 from physics.simulate import simulate
+from physics.statics.load_distribution import resting
 
 
 @pytest.mark.parametrize(("name", "rate", "times"), [("F1", 2000.0, 40.0), ("F2r", 700.0, 30.0)])

@@ -10,7 +10,8 @@ from physics.cage import CagePath
 from physics.imperfections import Imperfections, Waviness
 from physics.outcome import Outcome, SimulationFailed
 from physics.response.goal import rms_distance, steady
-from physics.response.modal_case import March, case_of, resting
+from physics.response.modal_case import March, case_of
+from physics.statics.load_distribution import resting
 from physics.statics.stiffness import stiffness_trace
 
 RATE, SAMPLES, SIZE = 65536.0, 400, 0.01

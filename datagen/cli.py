@@ -26,6 +26,7 @@ from datagen.exits import OUTPUT_CLOSED
 from datagen.freed_memory import keep_freed_memory
 from datagen.garbage import collect_seldom
 
+# Each is a command of the app by being imported.
 COMMANDS = (
     generate,
     import_recordings,

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from datagen.errors import BadInput
+from datagen.recipes.operation_settings import MOST_SLIP_DEVIATION
 from datagen.recipes.recipe_files import shipped_recipes
 from physics.angular_speed import in_rpm
 from physics.reference_scenes import REFERENCE_SCENES, reference_scene, slipping
@@ -20,7 +21,7 @@ SHORTEST = 0.2
 RIG_NAMES = {"gearbox": "G1", "fan": "F1"}
 NAMES = (*REFERENCE_SCENES, *RIG_NAMES)
 SLOWEST, FASTEST = 0.01, 100.0
-MOST_SLIP = 10.0  # %, as in recipes
+MOST_SLIP = 100.0 * MOST_SLIP_DEVIATION  # %
 SLIP_SEED = 1
 FORM = re.compile(r"(?P<name>[^@~]*)(?:@(?P<times>[^@~]*))?(?:~(?P<slip>[^@~]*))?")
 

@@ -13,6 +13,7 @@ from datagen.commands.progress_display import show_records
 from datagen.counts import bytes_text, counted
 from datagen.errors import BadInput
 from datagen.exits import FAILED
+from datagen.files.number_texts import whole_number
 from datagen.files.places import FAILURES
 
 if TYPE_CHECKING:
@@ -59,7 +60,7 @@ def generate(
 
 def _numbers(option: str, text: str) -> list[int]:
     try:
-        numbers = [int(part) for part in text.split(",")]
+        numbers = [whole_number(part) for part in text.split(",")]
     except ValueError:
         raise BadInput(field=option, value=text, allowed="whole numbers separated by commas, such as 17,40") from None
     twice = next((number for number, times in Counter(numbers).items() if times > 1), None)

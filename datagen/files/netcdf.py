@@ -19,7 +19,7 @@ from importlib.util import find_spec
 from itertools import product
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal, get_args
 
 import numpy as np
 
@@ -32,7 +32,8 @@ if TYPE_CHECKING:
     import netCDF4
     import xarray
 
-COMPRESSIONS = ("zlib", "none")
+Compression = Literal["zlib", "none"]
+COMPRESSIONS = get_args(Compression)
 NO_LZ4 = "netCDF's own lz4 filter fails on signals that do not compress and ends the process"
 LONG_DIMENSIONS = ("time", "stiffness_time", "profile_angle")
 # Texts of more bytes are stored in a chunk each.

@@ -63,13 +63,13 @@ def require_table(path: Path) -> None:
 
 def refuse_other_than_file(path: Path, allowed: str) -> None:
     """Raise BadInput that says what lies at `path` where no file does; nothing happens if nothing lies there."""
-    if path.exists():
+    if os.path.exists(path):
         raise BadInput(no_file(path), str(path), allowed=allowed)
 
 
 def no_file(path: Path) -> str:
     """What to say of a `path` at which no file lies: what lies there instead, or that nothing does."""
-    if not path.exists():
+    if not os.path.exists(path):
         return "no such file"
     return "this is a folder" if path.is_dir() else "this is a pipe or a device; a file is needed"
 

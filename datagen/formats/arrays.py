@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Mapping
+from abc import abstractmethod
+from collections.abc import Iterable, Iterator, Mapping
 from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datagen.errors import BadInput
+from datagen.files.number_texts import may_be_parted
 from datagen.formats.csv_file import Columns
 from datagen.formats.placeholders import filled
 from physics.spelling import suggestion
@@ -54,7 +56,38 @@ def as_numbers(array: NDArray[Any]) -> NDArray[Any] | None:
         found = array.astype(np.float64)
     except ValueError:
         return None
+    if any(map(may_be_parted, array.astype(np.str_).ravel().tolist())):
+        return None
     return found if found.size and np.isfinite(found).all() else None
+
+
+class ReadWhenAsked(Mapping[str, NDArray[Any]]):
+    """Arrays of a file by name, each read when it is asked for; the one read last is kept, as it is often asked for
+    again. Whether there is one is known without reading it."""
+
+    def __init__(self, names: Iterable[str]) -> None:
+        self._names = dict.fromkeys(names)
+        self._last: tuple[str, NDArray[Any]] | None = None
+
+    @abstractmethod
+    def _read(self, name: str) -> NDArray[Any]:
+        """The array of a known name; raises BadInput."""
+
+    def __getitem__(self, name: str) -> NDArray[Any]:
+        if name not in self:
+            raise KeyError(name)
+        if self._last is None or self._last[0] != name:
+            self._last = (name, self._read(name))
+        return self._last[1]
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._names
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._names)
+
+    def __len__(self) -> int:
+        return len(self._names)
 
 
 class NoVariable(BadInput):

@@ -11,6 +11,7 @@ import numpy as np
 
 from datagen.errors import BadInput
 from datagen.files.csv_rows import BLANKS, BROKEN, NotText, Row, open_text, read_csv_rows
+from datagen.files.number_texts import may_be_parted, number
 from datagen.formats.csv_hints import (
     DECIMAL_COMMA,
     THOUSANDS,
@@ -22,7 +23,7 @@ from datagen.formats.csv_hints import (
     refuse_split_numbers,
     titled_hint,
 )
-from datagen.formats.csv_layout import CsvLayout, number
+from datagen.formats.csv_layout import CsvLayout
 from physics.arrays import Array
 
 # How packed files and workbooks begin: zip (.xlsx too), 7z, rar, OLE (.xls).
@@ -230,8 +231,10 @@ def _columns(path: Path, layout: CsvLayout, rows: list[Row]) -> Columns:
 
 
 def _numbers(cells: list[str], decimal: str) -> Array:
-    texts = np.array(cells if decimal == "." else [cell.replace(decimal, ".") for cell in cells], dtype=np.str_)
+    texts = cells if decimal == "." else [cell.replace(decimal, ".") for cell in cells]
     try:
-        return texts.astype(np.float64)
+        if not any(map(may_be_parted, texts)):
+            return np.array(texts, dtype=np.str_).astype(np.float64)
     except ValueError:
-        return np.array([number(text) for text in texts.tolist()])
+        pass  # some of them are no numbers
+    return np.array([number(text) for text in texts])

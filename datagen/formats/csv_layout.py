@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-import math
 from typing import Annotated, Any
 
 from pydantic import Field, field_validator, model_validator
 from pydantic_core import PydanticCustomError
 
 from datagen.files.csv_rows import UTF_8
+from datagen.files.number_texts import number
 from datagen.settings.table import Table, refuse
 
 ONE_CHARACTER = 'one character, such as ";", or "\\t" for a tabulator'
+MOST_SKIPPED = 1_000_000_000
 ENCODINGS = "an encoding of texts, such as utf-8, latin-1 or utf-16"
 
 
@@ -24,9 +25,9 @@ class CsvLayout(Table):
     """Decimal sign."""
     header: bool = True
     """True if a line of column names comes first; without it the columns are called "1", "2", …"""
-    skip_lines: Annotated[int, Field(ge=0)] = 0
+    skip_lines: Annotated[int, Field(ge=0, le=MOST_SKIPPED)] = 0
     """Lines to leave out at the start."""
-    skip_below: Annotated[int, Field(ge=0)] = 0
+    skip_below: Annotated[int, Field(ge=0, le=MOST_SKIPPED)] = 0
     """Lines to leave out below that of column names, such as one of units; blank ones do not count."""
     encoding: str = UTF_8
     """Encoding of the text, as Python calls it: utf-8, latin-1, utf-16, …"""
@@ -75,11 +76,3 @@ class CsvLayout(Table):
         except (LookupError, ValueError):
             raise PydanticCustomError("allowed", "allowed: {allowed}", {"allowed": ENCODINGS}) from None
         return encoding
-
-
-def number(text: str) -> float:
-    """The number that a `text` is, with a point as decimal sign; NaN if it is none."""
-    try:
-        return float(text)
-    except ValueError:
-        return math.nan

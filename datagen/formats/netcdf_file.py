@@ -3,7 +3,7 @@ numbers among the attributes."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from datagen.errors import BadInput
 from datagen.files.netcdf import ONE_AT_A_TIME
-from datagen.formats.arrays import Arrays, as_numbers
+from datagen.formats.arrays import Arrays, ReadWhenAsked, as_numbers
 
 # The two formats of netCDF-3 that scipy knows too, and the one that it does not.
 CLASSIC, LARGE = (b"CDF\x01", b"CDF\x02"), b"CDF\x05"
@@ -21,8 +21,8 @@ ATTRIBUTE = "@"
 Place = tuple[str, str]
 
 
-class _Variables(Mapping[str, NDArray[Any]]):
-    """The variables of a file, each read when it is asked for; missing values are NaN.
+class _Variables(ReadWhenAsked):
+    """The variables of a file; missing values are NaN.
 
     Attributes come by their names too, but are not among those that are listed, nor fit a pattern.
     """
@@ -33,9 +33,12 @@ class _Variables(Mapping[str, NDArray[Any]]):
         self.path = path
         with ONE_AT_A_TIME, netCDF4.Dataset(path) as file:
             self.places = dict(_numeric(file, ""))
-        self.names = tuple(name for name, (_, attribute) in self.places.items() if not attribute)
+        super().__init__(tuple(name for name, (_, attribute) in self.places.items() if not attribute))
 
-    def __getitem__(self, name: str) -> NDArray[Any]:
+    def __contains__(self, name: object) -> bool:
+        return name in self.places
+
+    def _read(self, name: str) -> NDArray[Any]:
         import netCDF4
 
         place, attribute = self.places[name]
@@ -49,12 +52,6 @@ class _Variables(Mapping[str, NDArray[Any]]):
             raise BadInput(f"its variable {name} cannot be read: {problem}", str(self.path)) from None
         masked = np.ma.isMaskedArray(values) and np.ma.is_masked(values)
         return values.astype(np.float64).filled(np.nan) if masked else np.asarray(values)
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self.names)
-
-    def __len__(self) -> int:
-        return len(self.names)
 
 
 def _numeric(group: Any, prefix: str) -> Iterator[tuple[str, Place]]:

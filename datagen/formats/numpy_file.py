@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -10,20 +9,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datagen.errors import BadInput
-from datagen.formats.arrays import ONLY_NAME, Arrays, NumericVariables, as_numbers
+from datagen.formats.arrays import ONLY_NAME, Arrays, NumericVariables, ReadWhenAsked, as_numbers
 
 
-class _Members(Mapping[str, NDArray[Any]]):
-    """The members of an .npz file, each read when it is asked for."""
+class _Members(ReadWhenAsked):
+    """The members of an .npz file."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
         with np.load(path) as file:
-            self.names = tuple(file.files)
+            super().__init__(tuple(file.files))
 
-    def __getitem__(self, name: str) -> NDArray[Any]:
-        if name not in self.names:
-            raise KeyError(name)
+    def _read(self, name: str) -> NDArray[Any]:
         try:
             with np.load(self.path) as file:
                 value = np.asarray(file[name])
@@ -33,12 +30,6 @@ class _Members(Mapping[str, NDArray[Any]]):
             raise BadInput(f"its array {name} cannot be read: {problem}", str(self.path)) from None
         numbers = as_numbers(value)
         return value if numbers is None else numbers
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self.names)
-
-    def __len__(self) -> int:
-        return len(self.names)
 
 
 def _of_objects(what: str, path: Path) -> BadInput:

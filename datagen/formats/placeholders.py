@@ -5,8 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from pathlib import Path, PurePosixPath
+from string import Formatter
 
 from datagen.errors import BadInput
+
+# A width or a number of decimals of more than three figures.
+WIDE = re.compile(r"\d{4}")
 
 
 def filled(text: str, path: Path, field: str, more: Mapping[str, str] | None = None) -> str:
@@ -14,6 +18,8 @@ def filled(text: str, path: Path, field: str, more: Mapping[str, str] | None = N
 
     They are the file's name without its ending, the first whole number in it, and the name of the folder it lies in.
     """
+    if any(WIDE.search(part or "") for _, _, part, _ in _parts(text)):
+        raise BadInput("a width in braces", str(path), field, text, "at most 999 characters")
     number = re.search(r"\d+", path.stem)
     values: dict[str, str | int] = {"stem": without_ending(path), "number": int(number.group()) if number else ""}
     values |= {"folder": path.parent.name, **(more or {})}
@@ -24,6 +30,14 @@ def filled(text: str, path: Path, field: str, more: Mapping[str, str] | None = N
         problem = "cannot be filled in for this file" + (", whose name contains no number" if nameless else "")
         allowed = ", ".join(f"{{{name}}}" for name in values) + ", as in X{number:03}_DE_time"
         raise BadInput(problem, str(path), field, text, allowed) from None
+
+
+def _parts(text: str) -> list[tuple[str, str | None, str | None, str | None]]:
+    """What stands in the text, as `string.Formatter` parts it; nothing of a text that it cannot part."""
+    try:
+        return list(Formatter().parse(text))
+    except ValueError:
+        return []
 
 
 def without_ending(path: Path | PurePosixPath) -> str:

@@ -7,7 +7,6 @@ from pathlib import Path
 
 from datagen.corpus_files.manifest import manifest_path
 from datagen.corpus_files.shard import has_finished_shards
-from datagen.files.netcdf import check_compression
 from datagen.progress import Say, ignore
 from datagen.recipes.recipe import load_recipe
 from datagen.recipes.recipe_files import FILE_NAME
@@ -57,7 +56,6 @@ def check_recipe(source: str | Path, say: Say = ignore) -> RecipeFacts:
     """
     recipe = load_recipe(source)
     asked = selection(recipe, None, None)
-    check_compression(recipe.store.compression)
     require_memory(recipe)
     require_possible_rates(recipe, asked)
     planned = plan_shards(recipe, recipe.count, say)

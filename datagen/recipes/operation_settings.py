@@ -13,6 +13,7 @@ from physics.operation import HEAVIEST_LOAD
 
 # Below it a record holds nothing but rest; above it no bearing survives.
 SLOWEST_RPM, FASTEST_RPM = 1e-3, 1e6
+MOST_SLIP_DEVIATION = 0.1
 ANY_ANGLE = Uniform(0.0, 360.0)
 
 
@@ -33,7 +34,7 @@ class OperationSettings(Table):
     """The same of row 2, before its stagger, where the rows have separate cages, degrees."""
     mean_slip: Annotated[Distribution, Between(-0.2, 0.2)] = Fixed(0.0)
     """Mean slip of the cage, as a share of its speed."""
-    slip_deviation: Annotated[Distribution, Between(0.0, 0.1)] = Fixed(0.01)
+    slip_deviation: Annotated[Distribution, Between(0.0, MOST_SLIP_DEVIATION)] = Fixed(0.01)
     """Standard deviation of the cage's slip, as a share of its speed."""
     slip_correlation_passes: Annotated[Distribution, Between(0.1, 1e4)] = Fixed(1.0)
     """Correlation time of the slip, in nominal ball passes of the outer race."""

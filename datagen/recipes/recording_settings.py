@@ -84,7 +84,8 @@ def _learnt(value: dict[str, Any], path: Path) -> dict[str, Any]:
         return value
     except BadInput as problem:
         field = problem.field if problem.field in ("channels", "file") else "file"
-        raise refuse(f"{path.name}: {problem.problem}", field, problem.allowed) from None
+        where = Path(problem.file).name if problem.file else path.name  # its line, where that is known, is in it
+        raise refuse(f"{where}: {problem.problem}", field, problem.allowed) from None
     stated = value.get("rate_hz", read.rate)
     if stated is None:
         raise refuse(f"{path.name} does not state its sampling rate", "rate_hz", "a number of Hz")

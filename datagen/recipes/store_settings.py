@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import BeforeValidator, Field
 
-from datagen.files.netcdf import COMPRESSIONS, NO_LZ4
+from datagen.files.netcdf import COMPRESSIONS, NO_LZ4, Compression
 from datagen.settings.table import Table, refuse
 
 
@@ -20,7 +20,7 @@ def _not_lz4(compression: object) -> object:
 class Store(Table):
     """What is written and how."""
 
-    compression: Annotated[Literal["zlib", "none"], BeforeValidator(_not_lz4)] = "zlib"
+    compression: Annotated[Compression, BeforeValidator(_not_lz4)] = "zlib"
     """Compression of the shards."""
     records_per_shard: Annotated[int, Field(ge=1, le=1_000_000)] = 32
     """Most records in one shard."""

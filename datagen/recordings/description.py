@@ -99,6 +99,8 @@ def _bearing_labels(source: Source, bearing: Bearing | None) -> dict[str, Any]:
 def _check_orders(source: Source, stated: dict[str, float]) -> None:
     """Refuse orders that no bearing has, such as frequencies in Hz: BPFO and BPFI add up to the number of balls, and
     BPFO is that number times the order of the cage."""
+    if len({"bpfo", "bpfi"} & stated.keys()) == 1:
+        _check_single(source, *next((name, stated[name]) for name in ("bpfo", "bpfi") if name in stated))
     outer, inner = stated.get("bpfo", 0.0), stated.get("bpfi", math.inf)
     balls = outer + inner
     if outer >= inner or MOST_BALLS < balls < math.inf:
@@ -112,6 +114,16 @@ def _check_orders(source: Source, stated: dict[str, float]) -> None:
             f"orders whose sum is the number of balls, within {WHOLE_WITHIN:g} of a whole number",
         )  # fmt: skip
     _check_cage(source, stated)
+
+
+def _check_single(source: Source, name: str, order: float) -> None:
+    """Refuse a BPFO that is half of too many balls or more, or a BPFI that is so many, where the other is unknown."""
+    fewest = 2.0 * order if name == "bpfo" else order
+    if fewest > MOST_BALLS:
+        raise BadInput(
+            f"it would mean a bearing with more than {fewest:g} balls", source.request.place, name, order,
+            f"an order of the shaft, of a bearing with at most {MOST_BALLS} balls",
+        )  # fmt: skip
 
 
 def _check_cage(source: Source, stated: dict[str, float]) -> None:

@@ -11,6 +11,7 @@ from pydantic import ValidationError
 
 from datagen.errors import BadInput
 from datagen.files.csv_rows import Row, read_csv_rows
+from datagen.files.number_texts import may_be_parted
 from datagen.recordings.settings import RecordingSettings
 from datagen.settings.problems import bad_settings
 from physics.spelling import suggestion
@@ -42,7 +43,7 @@ def read_label_table(path: Path, note_columns: tuple[str, ...]) -> list[TableRow
     """
     try:
         delimiter = _delimiter(path)
-        rows = read_csv_rows(path, delimiter)
+        rows = [(line, cells) for line, cells in read_csv_rows(path, delimiter) if any(map(str.strip, cells))]
     except OSError as problem:
         raise BadInput(f"cannot be read: {problem.strerror}", str(path)) from None
     if len(rows) < 2:
@@ -53,11 +54,7 @@ def read_label_table(path: Path, note_columns: tuple[str, ...]) -> list[TableRow
     decimal = "." if delimiter == "," else ","
     if decimal == ",":
         _refuse_two_decimals(header, rows[1:], path)
-    return [
-        _row(header, cells, note_columns, f"{path}, line {line}", decimal)
-        for line, cells in rows[1:]
-        if any(cell.strip() for cell in cells)
-    ]
+    return [_row(header, cells, note_columns, f"{path}, line {line}", decimal) for line, cells in rows[1:]]
 
 
 def _delimiter(path: Path) -> str:
@@ -122,7 +119,7 @@ def _allows_text(annotation: Any) -> bool:
 
 
 def _plain(cell: str, decimal: str) -> float | int | str:
-    if "_" in cell:  # Python reads 1052 from 105_2, which is a name
+    if may_be_parted(cell):
         return cell
     for kind in (int, float):
         try:

@@ -63,6 +63,7 @@ def list_requests(spec: Spec, root: Path) -> Listing:
 def _requests(spec: Spec, part: PartFiles, path: Path, row: TableRow | None) -> Iterator[Request]:
     """What is asked of one file of a part, of which a table says the `row`; raises BadInput."""
     recording, where = part.recording, row.place if row else part.place
+    _require_text(path, where)
     of_recording = {name: value for name, value in recording.given().items() if name not in NOT_SETTINGS}
     settings = merged(spec.defaults.given(), of_recording)
     if row:
@@ -73,6 +74,15 @@ def _requests(spec: Spec, part: PartFiles, path: Path, row: TableRow | None) -> 
             settings = merged(settings, {k: v for k, v in override.given().items() if k != "files"})
     for channel in _channels(settings, where):
         yield Request(recording.name, path, part.root.name(path), channel, settings, where)
+
+
+def _require_text(path: Path, place: str) -> None:
+    """Raise BadInput for a file whose name is no text, as in archives unpacked in another encoding than they have: no
+    table nor shard can hold it."""
+    name = str(path)
+    shown = name.encode("utf-8", "backslashreplace").decode()
+    if shown != name:
+        raise BadInput("the name of this file is not UTF-8", place, "file", shown, "the file renamed")
 
 
 def _refuse_two_speeds(settings: dict[str, Any], row: TableRow) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 from glob import escape
 from pathlib import Path
@@ -51,9 +52,9 @@ class PartFiles:
 
     def _table(self, name: str) -> Path:
         places = (self.spec.parent / name, self.root.folder / name)
-        path = next((path for path in places if path.is_file()), None)
+        path = next((path for path in places if os.path.isfile(path)), None)
         if path is None:
-            told = no_file(next(filter(Path.exists, places), places[0]))
+            told = no_file(next(filter(os.path.exists, places), places[0]))
             raise BadInput(told, str(self.spec), "table", name)
         require_unchanged(path)
         return path
@@ -75,7 +76,7 @@ class PartFiles:
         below it; None if there is none."""
         folder = self.root.folder
         for name in row.files:
-            if (folder / name).is_file():
+            if os.path.isfile(folder / name):  # False too for a name too long for a file
                 return folder / name
             fitting = self.root.below.fitting(name)
             if len(fitting) > 1:
@@ -89,7 +90,7 @@ class PartFiles:
         """What is absent where no file is the one of a row; raises BadInput if it must not be."""
         if self._refuses:
             folder = self.root.folder
-            there = any((folder / name).is_dir() for name in row.files)
+            there = any(os.path.isdir(folder / name) for name in row.files)
             told = f"this is a folder below {folder}" if there else f"no such file below {folder}"
             raise BadInput(told, row.place, "file", "|".join(row.files))
         return row.files[0]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 import numpy as np
@@ -32,7 +33,7 @@ def rate_of(times: NDArray[np.float64], path: Path, wish: str) -> float:
             )
     else:
         step = 0.0
-    if step <= 0.0:
+    if not (0.0 < step < math.inf and 1.0 / step < math.inf):
         raise BadInput("is not a column of rising times", str(path), "rate_hz", wish, "times or their step, s")
     return _roundest(step, 2.0 * beside / max(times.size - 1, 1))
 

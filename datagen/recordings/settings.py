@@ -14,7 +14,8 @@ from labels.schema import CONDITIONS, LABEL, LOCATIONS, SPLITS, UNKNOWN
 
 UNITS = {"m/s2": 1.0, "g": 9.80665}
 Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
-NonNegative = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
+# Longer than any recording, s.
+LONGEST_S = 1e9
 # mm; the balls of bearings are not smaller, and a number below this is a length in m.
 Diameter = Annotated[float, Field(ge=0.1, le=1e5)]
 MOST_BALLS = 200
@@ -122,11 +123,11 @@ class RecordingSettings(Table):
     """Samples that are no finite numbers: refused, or filled in gaps of 10 at most, 1 % of all."""
     bearing: str | BearingNumbers | None = None
     """Name of a bearing in the catalogue, or its geometry."""
-    from_s: NonNegative | None = None
+    from_s: Annotated[float, Field(ge=0.0, le=LONGEST_S)] | None = None
     """Where the part that is taken begins, s from the first sample; there if not given."""
-    to_s: Positive | None = None
+    to_s: Annotated[float, Field(gt=0.0, le=LONGEST_S)] | None = None
     """Where that part ends, s from the first sample; with the last one if not given."""
-    cut_s: Positive | None = None
+    cut_s: Annotated[float, Field(gt=0.0, le=LONGEST_S)] | None = None
     """Length of the pieces that this part is cut into, s; whole if not given. A shorter rest is left out."""
     envelope_band_hz: tuple[float, float] | None = Field(default=None, strict=False)
     """Band of the stored envelope, Hz; by default the most impulsive band of the y axis."""

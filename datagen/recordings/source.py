@@ -181,7 +181,9 @@ class Source:
             allowed = TIMES if said.times else one if bad.size < found.size else ""
             raise self._not_finite(bad, found.size, said.variable, name, allowed)
         if said.times:
-            value = rate_of(found.astype(np.float64) * said.factor, self.path, said.variable)
+            with np.errstate(over="ignore"):
+                times = found.astype(np.float64) * said.factor
+            value = rate_of(times, self.path, said.variable)
         elif name in CONSTANT and np.ptp(found) > 0.0:
             also = ", or the times of the samples with times = true" if name == "rate_hz" else ""
             raise self._several(found, said.variable, name, "a variable that holds one number, or one of it" + also)

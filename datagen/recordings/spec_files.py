@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 from datagen.errors import BadInput
@@ -18,7 +19,7 @@ def shipped_specs() -> dict[str, Path]:
 def find_spec(path_or_name: str | Path) -> Path:
     """File of a SPEC given as a file or by name ("cwru"); raises BadInput."""
     path = Path(path_or_name)
-    if path.is_file():
+    if os.path.isfile(path):  # False too for a name too long for a file
         return path
     shipped = shipped_specs()
     if path.name in shipped and path.parent == Path():

@@ -65,7 +65,7 @@ def _rate_by_times(source: Source, name: str, size: int) -> float:
 
 def _agree(told: float, rate: float) -> bool:
     """Whether a rate that a file tells is the stated one, in Hz or by a unit a thousand times as large, or none."""
-    if not (math.isfinite(told) and told > 0.0):
+    if not (math.isfinite(told) and told / rate > 0.0):
         return True
     unit = 1000.0 ** min(0, round(math.log(told / rate, 1000.0)))
     return abs(told / unit / rate - 1.0) <= ALIKE

@@ -15,6 +15,7 @@ from physics.angular_speed import RPM_PER_HZ
 from physics.operation import HEAVIEST_LOAD
 from physics.spelling import suggestion
 
+LOWEST_ORDER = 1e-3
 # Those of recipes where these have the setting too; wide enough elsewhere for any machine, not for a slip of units.
 RANGES = {
     "rate_hz": Between(100.0, 1e7),
@@ -27,8 +28,8 @@ RANGES = {
     "depth_um": Between(0.0, 1e5, above=True),
     "load_n": Between(0.0, HEAVIEST_LOAD),
     "snr_db": Between(-100.0, 200.0),
-    **dict.fromkeys(("bpfo", "bpfi", "bsf"), Between(0.0, 1e3, above=True)),
-    "ftf": Between(0.0, 1.0, above=True),
+    **dict.fromkeys(("bpfo", "bpfi", "bsf"), Between(LOWEST_ORDER, 1e3)),
+    "ftf": Between(LOWEST_ORDER, 1.0),
 }
 
 # Likeness from which a word is one of a closed list with a slip in it: of "faulty" and "healthy" it is 0.62.

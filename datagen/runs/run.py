@@ -113,7 +113,7 @@ class Run:
 
     def _make_missing(self, planned: Sequence[PlannedShard]) -> None:
         todo = self.finished.lacking(planned, self.wanted)
-        self.done = len(self.wanted) - sum(self._wanted_of(shard) for shard in todo)
+        self._count_done(todo)
         if not todo:
             self.listener.say(
                 "all records asked for exist already, in files of the right size; `spallgen check` reads them"
@@ -190,9 +190,16 @@ class Run:
                 todo = self._still(todo)
 
     def _still(self, todo: Sequence[PlannedShard]) -> list[PlannedShard]:
-        """Those of `todo` that are neither on the disk nor given up."""
+        """Those of `todo` that are neither on the disk nor given up; all others count as done, also those of which a
+        lost worker brought no word."""
         self._rescan()
-        return [shard for shard in self.finished.lacking(todo, self.wanted) if shard.number not in self.errors]
+        still = [shard for shard in self.finished.lacking(todo, self.wanted) if shard.number not in self.errors]
+        self._count_done(still)
+        self.listener.advance(self.done, len(self.wanted))
+        return still
+
+    def _count_done(self, todo: Sequence[PlannedShard]) -> None:
+        self.done = len(self.wanted) - sum(self._wanted_of(shard) for shard in todo)
 
     def _make_alone(self, shard: PlannedShard) -> None:
         try:

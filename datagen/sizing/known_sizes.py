@@ -11,6 +11,7 @@ import numpy as np
 
 from datagen.corpus_files.index import read_index
 from datagen.errors import BadInput
+from datagen.files.number_texts import number, whole_number
 from datagen.sizing.estimators import AnyEstimator
 from datagen.sizing.record_errors import arc_error, extent_error
 from datagen.sizing.scored_record import ScoredRecord
@@ -48,7 +49,7 @@ def parse_known_sizes(texts: Iterable[str]) -> dict[int, float]:
     for text in texts:
         index, _, length = text.partition("=")
         try:
-            record, millimetres = int(index), float(length)
+            record, millimetres = whole_number(index), number(length)
         except ValueError:
             record, millimetres = -1, math.nan
         if record < 0 or not (math.isfinite(millimetres) and millimetres > 0.0):

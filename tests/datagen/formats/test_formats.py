@@ -226,7 +226,33 @@ def test_the_fields_of_a_structured_array_come_by_name(tmp_path: Path) -> None:
         choose(arrays, "data.note", tmp_path / "a.npy", "y")
 
 
-@pytest.mark.parametrize("texts", [["nan"], ["12.5", "inf"], ["12.5", "fast"], []])
+def test_a_name_or_a_date_is_no_number_though_python_reads_one(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("day,run,a\n2024_05_17,1_5,1.5\n2024_05_18,2,-2\n")
+    table = read_arrays(tmp_path / "a.csv", None, PLAIN)
+    assert np.isnan(table["day"]).all()
+    assert table["run"].tolist()[1] == 2.0
+    assert np.isnan(table["run"][0])
+    assert table["a"].tolist() == [1.5, -2.0]
+
+
+def test_the_arrays_of_a_file_are_read_when_they_are_asked_for_and_once(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    np.savez(tmp_path / "a.npz", a=np.arange(3.0), b=np.arange(4.0))
+    opened = []
+    load = np.load
+    monkeypatch.setattr(np, "load", lambda path: opened.append(path) or load(path))
+    arrays = read_arrays(tmp_path / "a.npz", None, PLAIN)
+    assert "a" in arrays
+    assert "c" not in arrays
+    assert list(arrays) == ["a", "b"]
+    assert len(opened) == 1  # for the names
+    for _ in range(3):
+        assert choose(arrays, "b", tmp_path / "a.npz", "y").tolist() == [0.0, 1.0, 2.0, 3.0]
+    assert len(opened) == 2
+
+
+@pytest.mark.parametrize("texts", [["nan"], ["12.5", "inf"], ["12.5", "fast"], ["105_2"], []])
 def test_texts_of_which_one_is_no_finite_number_are_none(texts: list[str]) -> None:
     assert as_numbers(np.array(texts, dtype=np.str_)) is None
     found = as_numbers(np.array([" 12.5", "-3e2"]))

@@ -67,6 +67,12 @@ def test_a_pipe_is_not_called_missing(find: Callable[[Path], Path], tmp_path: Pa
         find(tmp_path / "pipe")
 
 
+@pytest.mark.parametrize("find", [find_recipe, find_spec])
+def test_a_name_too_long_for_a_file_is_refused(find: Callable[[str], Path]) -> None:
+    with pytest.raises(BadInput, match=r"no such file|File name too long"):
+        find("a" * 300)
+
+
 def test_a_folder_is_not_taken_for_a_spec(tmp_path: Path) -> None:
     with pytest.raises(BadInput, match="this is a folder"):
         find_spec(tmp_path)

@@ -234,6 +234,7 @@ def test_records_of_unknown_bearings_may_be_in_several_splits(bring: Bring, mat:
         ("file,location\na.mat,inner\nz.mat,inner\n", 't.csv, line 3: file = "z.mat": no such file below'),
         ("file,location\na.mat,inner\nsub,inner\n", 't.csv, line 3: file = "sub": this is a folder below'),
         ("file,location\n", "t.csv: the table has no rows"),
+        ("file,location\n,\n \n", "t.csv: the table has no rows"),
         ('file,location\n"a.mat,inner\n', "t.csv, line 2: not a row of a CSV table: unexpected end of data"),
         ('\nfile,recording\n\na.mat,"a\nb"\n\na.mat\n', "t.csv, line 7: 1 cells, but the table has 2 columns"),
     ],

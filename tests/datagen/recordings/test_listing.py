@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path, PurePosixPath
 from unicodedata import normalize
 
@@ -245,4 +246,20 @@ def test_a_table_in_another_encoding_is_refused_with_the_one_to_save_it_in(
     mat("Mühle.mat")
     (tmp_path / "t.csv").write_bytes("file,load_n\nMühle.mat,7\n".encode("cp1252"))
     with pytest.raises(BadInput, match=r"t\.csv: not a text file in utf-8; allowed: the text saved in utf-8$"):
+        bring(SPEC + 'table = "t.csv"\n')
+
+
+def test_a_name_that_is_not_utf_8_is_refused_before_anything_is_read(
+    bring: Bring, mat: Mat, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    mat("good.mat")
+    os.rename(tmp_path / "good.mat", os.fsencode(tmp_path) + b"/M\xfchle.mat")
+    monkeypatch.setattr(importing, "read_recording", lambda request: pytest.fail("was read"))
+    with pytest.raises(BadInput, match=r'M\\udcfchle\.mat": the name of this file is not UTF-8; allowed: the file re'):
+        bring(SPEC + 'files = "*.mat"\n')
+
+
+def test_a_name_too_long_for_a_file_is_refused_where_a_table_has_it(bring: Bring, tmp_path: Path) -> None:
+    (tmp_path / "t.csv").write_text(f"file,load_n\n{'a' * 300},7\n")
+    with pytest.raises(BadInput, match=r't\.csv, line 2: file = "aaaa.*: no such file below'):
         bring(SPEC + 'table = "t.csv"\n')

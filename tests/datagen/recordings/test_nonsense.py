@@ -35,8 +35,13 @@ STATED = {
     "scale = nan": "scale = nan; allowed: a number, or",
     "snr_db = 1e9": "snr_db = 1000000000.0; allowed: a number from -100 to 200",
     "spalls = 100000000000000000000": "spalls = 100000000000000000000; allowed: at most 10000",
-    "bpfo = 1e30": "bpfo = 1e+30; allowed: a number above 0 to 1000",
-    "ftf = 11.9": "ftf = 11.9; allowed: a number above 0 to 1",
+    "bpfo = 1e30": "bpfo = 1e+30; allowed: a number from 0.001 to 1000",
+    "ftf = 11.9": "ftf = 11.9; allowed: a number from 0.001 to 1",
+    "ftf = 1e-310": "ftf = 1e-310; allowed: a number from 0.001 to 1",
+    "from_s = 1e305": "from_s = 1e+305; allowed: at most 1000000000.0",
+    "to_s = 1e305": "to_s = 1e+305; allowed: at most 1000000000.0",
+    "cut_s = 1e305": "cut_s = 1e+305; allowed: at most 1000000000.0",
+    "csv = {skip_lines = 9000000000000}": "csv.skip_lines = 9000000000000; allowed: at most 1000000000",
     "bearing = {balls = 9, ball_diameter_mm = 0.00794, pitch_diameter_mm = 0.03904}": "bearing.pitch_diameter_mm = "
     "0.03904; allowed: at least 0.1",
     "notes = {torque = nan}": "notes.torque = nan: not a finite number; allowed: texts, finite numbers, true or false",
@@ -52,6 +57,8 @@ HELD = {
     'speed_rpm = {variable = "minus"}': "speed_rpm = -3.0: from the variable minus; allowed: a number from 0 to 1e+06",
     "scale = 1e308": "scale = 1e+308: the largest sample would be inf m/s²; allowed: samples up to 1e+09 m/s²",
     "scale = 1e9": "scale = 1000000000.0: the largest sample would be",
+    'rate_hz = {variable = "huge", times = true, factor = 1e300}': 'rate_hz = "huge": is not a column of rising times',
+    'recording = "{stem:999999999999}"': 'recording = "{stem:999999999999}": a width in braces; allowed: at most 999',
     'tach = {variable = "saw", pulses_per_rev = 0.002}': "tach.pulses_per_rev = 0.002: its pulses give 6e+06",
 }
 
@@ -187,3 +194,12 @@ def test_where_a_word_or_a_table_may_stand_the_message_is_about_what_was_written
 ) -> None:
     mat("a.mat")
     assert f"recording[1].{message}" in refusal(bring, with_setting(setting), tmp_path)
+
+
+@pytest.mark.parametrize(("name", "order", "balls"), [("bpfo", 500.0, 1000), ("bpfi", 300.0, 300)])
+def test_one_order_alone_may_say_that_it_is_no_order(
+    name: str, order: float, balls: int, bring: Bring, mat: Mat, tmp_path: Path
+) -> None:
+    mat("a.mat")
+    message = refusal(bring, with_setting(f"{name} = {order}"), tmp_path)
+    assert f"{name} = {order}: it would mean a bearing with more than {balls} balls; allowed: an order of" in message

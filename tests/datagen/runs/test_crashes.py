@@ -113,6 +113,7 @@ def test_a_run_that_loses_a_worker_says_so_and_makes_everything(
     code, printed = process.finish()
     assert code == 0, printed
     assert "a worker was lost" in printed
+    assert "14 of 14 records" in printed.split("a worker was lost")[1]
     assert contents(tmp_path / "out") == expected
 
 

@@ -165,6 +165,12 @@ def test_a_record_that_can_teach_nothing_is_refused_in_words(record: int, words:
     assert f"--known-size: record = {record}" in complaint
 
 
+@pytest.mark.parametrize("text", ["1_0=2", "3=1_5", "3=nan", "-3=1", "3"])
+def test_a_size_that_is_none_is_refused(text: str) -> None:
+    with pytest.raises(BadInput, match="allowed: RECORD=MM"):
+        parse_known_sizes([text])
+
+
 def test_a_record_has_one_size() -> None:
     assert parse_known_sizes(["3=1.5", "4=2"]) == {3: 1.5, 4: 2.0}
     with pytest.raises(BadInput, match="already"):

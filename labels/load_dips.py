@@ -13,6 +13,8 @@ from physics.statics.ball_load import ball_load
 
 SAMPLES_PER_PASS = 400
 SHARE = 0.5
+# The first and the last instant lie outside the edges by this share of a pass: on a wall, rounding would decide.
+BESIDE = 1e-9
 
 
 def load_dips(scene: Scene, row: int, ball: NDArray[np.integer], entry: Array, leave: Array) -> tuple[Array, Array]:
@@ -22,13 +24,14 @@ def load_dips(scene: Scene, row: int, ball: NDArray[np.integer], entry: Array, l
     `ball` (N,) is the number, from 1, of the ball of `row` in each of N passes, which last from `entry` to `leave`
     (N,), s. NaN where the load does not both fall and rise between the edges. That of a ball which comes into the load
     zone, or goes out of it, inside the spall neither falls nor rises there.
-    Both loads are solved at 400 equal steps of each pass, so times are exact to about a thousandth of it; over a rough
+    Both loads are solved at 400 equal steps of each pass, so times are exact to about a thousandth of it, and to half a
+    step at a wall; over a rough
     floor a dip shorter than a step may be missed, and the times then are those of a dip beside it.
     """
     fall, rise = np.full(entry.size, np.nan), np.full(entry.size, np.nan)
     if entry.size == 0:
         return fall, rise
-    time = entry[:, None] + (leave - entry)[:, None] * np.linspace(0.0, 1.0, 1 + SAMPLES_PER_PASS)
+    time = entry[:, None] + (leave - entry)[:, None] * np.linspace(-BESIDE, 1.0 + BESIDE, 1 + SAMPLES_PER_PASS)
     pressed = _loads(scene, time, row, ball)
     due = _loads(replace(scene, spalls=()), time, row, ball)
     for k in range(entry.size):

@@ -99,7 +99,14 @@ LABELS: tuple[Label, ...] = (
     _number("extent_spacing", "1", "scene", "Arc covered by the spall over the ball spacing of a row; 0 when healthy."),
     _number("depth", "m", "scene", "Depth of the spall's floor below the raceway; 0 when healthy."),
     _number("path_depth", "m", "scene", "Largest drop of a ball's centre on its way over the spall; 0 when healthy."),
-    Label("bridged", "bool", "", "True if both edges carry the ball, so that it never reaches the floor.", "scene"),
+    Label(
+        "bridged",
+        "bool",
+        "",
+        "True if both edges carry the ball, so that it never reaches the floor: it stays more than 2 % of depth above "
+        "all of it between the tapers, or above all places of a measured table that are half as deep as its deepest.",
+        "scene",
+    ),
     _number("entry_taper", "rad", "scene", "Arc of the taper that a ball meets first; 0 when healthy."),
     _number("exit_taper", "rad", "scene", "Arc of the taper that a ball meets last; 0 when healthy."),
     _number("roughness", "m", "scene", "Standard deviation of the surface inside the spall; 0 when healthy."),
@@ -184,7 +191,9 @@ LABELS: tuple[Label, ...] = (
         "envelope_band",
         "Hz",
         "record",
-        "Lower and upper edge of the band of the stored envelope.",
+        "Lower and upper edge of the band of the stored envelope. Of a simulated record whose recipe states none: 5 % "
+        "to either side of the mode along y that strains the resonator's spring most, of the healthy bearing at the "
+        "rated load.",
         components=BAND_EDGES,
     ),
     _text("model", "run", 'Model that made the signal; "measured" if a real machine did.'),
@@ -216,8 +225,9 @@ LABELS: tuple[Label, ...] = (
         "stiffness_error",
         "1",
         "record",
-        "RMS error of the stored stiffness, read by linear interpolation at the instants of the samples, over the mean "
-        "of kyy. Between samples, where a ball takes or loses its load, it is larger.",
+        "Estimated RMS error of the stored stiffness, read by linear interpolation at the instants of the samples, "
+        "over the mean of kyy; the true one is usually several times smaller. Single instants, and those between "
+        "samples where a ball takes or loses its load, may be off by more.",
         "it was not measured",
     ),
     _text(

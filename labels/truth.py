@@ -85,11 +85,11 @@ def _passes_over(scene: Scene, changes: ContactChanges | None, duration: float, 
     row = scene.spalls[defect].row
     ball, entry, deepest, leave = _crossings(scene, defect, duration)
     release, regain = np.full(ball.size, np.nan), np.full(ball.size, np.nan)
-    loaded = lost = np.zeros(ball.size, np.bool_)
+    loaded = kept = np.zeros(ball.size, np.bool_)
     if changes is not None:
-        release, regain, loaded, lost = contact_events(changes, row, ball, entry, leave)
+        release, regain, loaded, kept = contact_events(changes, row, ball, entry, leave)
     ended = np.isnan(release) | np.isfinite(regain)
-    kept = loaded & ~lost & (entry >= 0.0) & (leave <= duration)
+    kept = kept & (entry >= 0.0) & (leave <= duration)
     fall, rise = np.full(ball.size, np.nan), np.full(ball.size, np.nan)
     fall[kept], rise[kept] = load_dips(scene, row, ball[kept], entry[kept], leave[kept])
     return PassTable(

@@ -261,8 +261,8 @@ PASSES: tuple[Variable, ...] = (
         "time of the falling load",
         "First fall of the ball's quasi-static load through half of what it would be without spalls, seen in 400 equal "
         "steps from entry to exit: over a rough floor a shorter dip may lie before.",
-        missing="contact is lost, the pass is cut by an end of the record, or the load does not fall from above half "
-        "and rise again",
+        missing="the ball does not touch both races from entry to exit, the pass is cut by an end of the record, or "
+        "the load does not fall from above half and rise again",
     ),
     _simulated(
         "rise_time",
@@ -271,8 +271,8 @@ PASSES: tuple[Variable, ...] = (
         "s",
         "time of the rising load",
         "Last rise of the ball's quasi-static load through half of what it would be without spalls, seen likewise.",
-        missing="contact is lost, the pass is cut by an end of the record, or the load does not fall from above half "
-        "and rise again",
+        missing="the ball does not touch both races from entry to exit, the pass is cut by an end of the record, or "
+        "the load does not fall from above half and rise again",
     ),
 )
 

@@ -1,4 +1,4 @@
-"""Release, regain, load and loss of contact of ball passes, read from the log of when each ball touched the races."""
+"""Release, regain, load and contact kept of ball passes, read from the log of when each ball touched the races."""
 
 from __future__ import annotations
 
@@ -13,22 +13,21 @@ from physics.trace import ContactChanges
 def contact_events(
     changes: ContactChanges, row: int, ball: NDArray[np.int16], entry: Array, leave: Array
 ) -> tuple[Array, Array, Flags, Flags]:
-    """`release`, `regain` (N,), s, `loaded` and `lost` (N,) of passes of `ball` (N,), from 1, of the `row`.
+    """`release`, `regain` (N,), s, `loaded` and `kept` (N,) of passes of `ball` (N,), from 1, of the `row`.
 
     A pass lasts from `entry` to `leave` (N,), s. `release` is the first loss of contact in it and `regain` the
     beginning of contact that ends the last loss in it, be it later; both are NaN if the ball kept contact or did not
     touch at entry (or at 0, if that is later), and `regain` alone if contact does not begin again. `loaded`: the ball
-    touches both races at some moment of the pass. `lost`: contact is lost in it, be it that of a ball that did not
-    touch at entry.
+    touches both races at some moment of the pass. `kept`: it does so at all of them, from entry (or 0) on.
     """
     own = changes.row == row
     order = np.lexsort((changes.time[own], changes.ball[own]))
     balls, times, begins = (column[own][order] for column in (changes.ball, changes.time, changes.made))
     first = np.searchsorted(balls, np.arange(1, changes.initial.shape[1] + 2))
     release, regain = np.full(ball.size, np.nan), np.full(ball.size, np.nan)
-    loaded, lost = np.zeros(ball.size, np.bool_), np.zeros(ball.size, np.bool_)
-    _fill_events(times, begins, first, changes.initial[row - 1], ball, entry, leave, release, regain, loaded, lost)
-    return release, regain, loaded, lost
+    loaded, kept = np.zeros(ball.size, np.bool_), np.zeros(ball.size, np.bool_)
+    _fill_events(times, begins, first, changes.initial[row - 1], ball, entry, leave, release, regain, loaded, kept)
+    return release, regain, loaded, kept
 
 
 @njit
@@ -43,7 +42,7 @@ def _fill_events(
     release: Array,
     regain: Array,
     loaded: Flags,
-    lost: Flags,
+    kept: Flags,
 ) -> None:
     """Fill what `contact_events` gives from the changes of each ball, which lie from `first` (B + 1,) on.
 
@@ -64,7 +63,7 @@ def _fill_events(
             elif made and not ended:
                 regain[k] = time
                 ended = True
-        lost[k] = not np.isnan(release[k])
+        kept[k] = touches_at_entry and np.isnan(release[k])
         if not touches_at_entry:
             release[k] = np.nan
         # A loss that did not end leaves no regain of an earlier one.

@@ -64,6 +64,15 @@ def test_a_dip_too_shallow_for_half_the_load_has_no_times(make_scene):
     assert np.isnan(rise).all()
 
 
+def test_the_walls_of_a_spall_without_tapers_are_where_the_load_falls_and_rises(make_scene):
+    """On a wall itself rounding would decide on which side the ball stands, and the load of every other pass."""
+    spall = replace(shallow(4.5e-6), entry_taper=0.0, exit_taper=0.0)
+    entry, leave, fall, rise = dips(make_scene(spall, duration=DURATION))
+    assert entry.size > 5
+    assert fall == pytest.approx(entry, abs=2.6e-3 * (leave - entry).max())  # a step of a 400th
+    assert rise == pytest.approx(leave, abs=2.6e-3 * (leave - entry).max())
+
+
 def test_the_pass_table_gives_them_only_where_contact_is_never_lost(make_scene):
     kept, lost = make_scene(shallow(4.5e-6), duration=DURATION), make_scene(shallow(15e-6), duration=DURATION)
     tables = [ball_passes(scene, simulate(scene, 16384.0).changes, DURATION) for scene in (kept, lost)]

@@ -1,4 +1,4 @@
-"""Release, regain, load and loss of contact of passes against logs of contact that are written out."""
+"""Release, regain, load and contact kept of passes against logs of contact that are written out."""
 
 import dataclasses
 
@@ -12,7 +12,7 @@ NEVER = np.nan
 
 
 def events(initial, log, *passes):
-    """Release, regain, load and loss of `passes` (entry, leave) of ball 2 in row 1, whose `log` has (time, made).
+    """Release, regain, loaded and kept of `passes` (entry, leave) of ball 2 in row 1, whose `log` has (time, made).
 
     Ball 1 and row 2 do the opposite all along.
     """
@@ -31,47 +31,48 @@ def events(initial, log, *passes):
 @pytest.mark.parametrize(
     ("initial", "log", "expected"),
     [
-        (True, [], (NEVER, NEVER, True, False)),
+        (True, [], (NEVER, NEVER, True, True)),
         (False, [], (NEVER, NEVER, False, False)),
-        (True, [(4.5, False), (5.5, True)], (4.5, 5.5, True, True)),
-        (True, [(4.5, False), (6.5, True)], (4.5, 6.5, True, True)),
-        (True, [(4.5, False)], (4.5, NEVER, True, True)),
+        (False, [(5.8, True)], (NEVER, NEVER, True, False)),
+        (True, [(4.5, False), (5.5, True)], (4.5, 5.5, True, False)),
+        (True, [(4.5, False), (6.5, True)], (4.5, 6.5, True, False)),
+        (True, [(4.5, False)], (4.5, NEVER, True, False)),
         (
             True,
             [(4.2, False), (4.6, True), (5.1, False), (6.2, True), (7.0, False), (8.0, True)],
-            (4.2, 6.2, True, True),
+            (4.2, 6.2, True, False),
         ),
-        (True, [(4.2, False), (4.6, True), (5.1, False)], (4.2, NEVER, True, True)),
+        (True, [(4.2, False), (4.6, True), (5.1, False)], (4.2, NEVER, True, False)),
         (True, [(3.0, False)], (NEVER, NEVER, False, False)),
-        (True, [(3.0, False), (5.0, True), (5.5, False), (5.8, True)], (NEVER, NEVER, True, True)),
-        (False, [(3.0, True), (4.5, False), (5.5, True)], (4.5, 5.5, True, True)),
-        (True, [(4.0, False), (6.0, True)], (4.0, 6.0, True, True)),
-        (True, [(6.0, False), (7.0, True)], (6.0, 7.0, True, True)),
-        (True, [(6.5, False), (7.5, True)], (NEVER, NEVER, True, False)),
+        (True, [(3.0, False), (5.0, True), (5.5, False), (5.8, True)], (NEVER, NEVER, True, False)),
+        (False, [(3.0, True), (4.5, False), (5.5, True)], (4.5, 5.5, True, False)),
+        (True, [(4.0, False), (6.0, True)], (4.0, 6.0, True, False)),
+        (True, [(6.0, False), (7.0, True)], (6.0, 7.0, True, False)),
+        (True, [(6.5, False), (7.5, True)], (NEVER, NEVER, True, True)),
     ],
 )
 def test_a_pass_from_4_to_6_tells_what_its_own_ball_does(initial, log, expected):
-    release, regain, loaded, lost = events(initial, log, (4.0, 6.0))
-    assert (release[0], regain[0], loaded[0], lost[0]) == pytest.approx(expected, nan_ok=True)
+    release, regain, loaded, kept = events(initial, log, (4.0, 6.0))
+    assert (release[0], regain[0], loaded[0], kept[0]) == pytest.approx(expected, nan_ok=True)
 
 
 def test_a_pass_that_begins_before_the_record_takes_contact_as_it_stands_at_0():
-    assert events(True, [(0.5, False), (1.5, True)], (-1.0, 1.0)) == [[0.5], [1.5], [True], [True]]
-    release, regain, loaded, lost = events(False, [(0.5, True), (0.7, False), (0.9, True)], (-1.0, 1.0))
+    assert events(True, [(0.5, False), (1.5, True)], (-1.0, 1.0)) == [[0.5], [1.5], [True], [False]]
+    release, regain, loaded, kept = events(False, [(0.5, True), (0.7, False), (0.9, True)], (-1.0, 1.0))
     assert np.isnan([release[0], regain[0]]).all()
-    assert loaded == lost == [True]
+    assert (loaded, kept) == ([True], [False])
 
 
 def test_a_pass_that_begins_in_a_lead_in_takes_contact_as_it_stands_at_0():
-    release, regain, loaded, lost = events(True, [(-0.5, False), (0.5, True)], (-1.0, 1.0))
+    release, regain, loaded, kept = events(True, [(-0.5, False), (0.5, True)], (-1.0, 1.0))
     assert np.isnan([release[0], regain[0]]).all()
-    assert loaded == lost == [True]
-    assert events(False, [(-0.5, True), (0.5, False), (0.7, True)], (-1.0, 1.0)) == [[0.5], [0.7], [True], [True]]
+    assert (loaded, kept) == ([True], [False])
+    assert events(False, [(-0.5, True), (0.5, False), (0.7, True)], (-1.0, 1.0)) == [[0.5], [0.7], [True], [False]]
 
 
 def test_passes_of_one_ball_do_not_share_their_events():
     log = [(1.5, False), (1.8, True), (4.5, False), (4.8, True)]
-    assert events(True, log, (1.0, 2.0), (4.0, 5.0)) == [[1.5, 4.5], [1.8, 4.8], [True, True], [True, True]]
+    assert events(True, log, (1.0, 2.0), (4.0, 5.0)) == [[1.5, 4.5], [1.8, 4.8], [True, True], [False, False]]
 
 
 def test_each_row_has_its_own_contact_at_the_start():

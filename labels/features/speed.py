@@ -33,8 +33,8 @@ MORE_LINES = 4
 # Another speed than the one stated has to be better by so many nats, over the most that it may be off: chance finds
 # more where more speeds are tried. These are 3 nats for a measured speed.
 WORTH_LEAVING = 3.0 / MEASURED_WITHIN
-# A harmonic of the shaft as near to a race's order as slip and a wrong speed together may move them, as shares, may be
-# a line of the race.
+# A harmonic of the shaft as near to a line of a race as slip and a wrong speed together may move it, may be that line.
+# Slip moves what lies at multiples of BPFO and BPFI by up to this share.
 MOVED_BY_SLIP = 0.027
 
 
@@ -90,11 +90,15 @@ def refine_speed(spectrum: Lines, envelopes: EnvelopeSpectra, known: Kinematics,
 
 
 def unambiguous_harmonics(known: Kinematics) -> Flags:
-    """Which of the shaft's harmonics 1 to SHAFT_HARMONICS (H,) no line of a race can be taken for."""
+    """Which of the shaft's harmonics 1 to SHAFT_HARMONICS (H,) no line of a race can be taken for.
+
+    A spall of the inner race goes through the load zone once a turn: beside each of its lines lie others, a turn apart.
+    """
     harmonic = np.arange(1.0, SHAFT_HARMONICS + 1.0)[:, None]
-    orders = np.array([known.bpfo, known.bpfi])
-    line = np.maximum(np.round(harmonic / orders), 1.0) * orders
-    return np.asarray((np.abs(harmonic / line - 1.0) > MOVED_BY_SLIP + known.speed_within).all(axis=1))
+    orders, beside = np.array([known.bpfo, known.bpfi, known.bpfi, known.bpfi]), np.array([0.0, -1.0, 0.0, 1.0])
+    passes = np.maximum(np.round((harmonic - beside) / orders), 1.0) * orders
+    moved = MOVED_BY_SLIP * passes + known.speed_within * (passes + beside)
+    return np.asarray((np.abs(harmonic - passes - beside) > moved).all(axis=1))
 
 
 def sharpened(spectrum: Lines, turning: Lines, known: Kinematics, factor: float, between: float) -> float:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Any
 
-from pydantic import AfterValidator, Field, model_validator
+from pydantic import AfterValidator, BeforeValidator, Field, model_validator
 
 from datagen.formats.csv_layout import CsvLayout
 from datagen.formats.reading import FORMATS
@@ -13,6 +13,8 @@ from datagen.settings.table import Table, at_most_one, refuse
 from labels.schema import CONDITIONS, LABEL, LOCATIONS, SPLITS, UNKNOWN
 
 UNITS = {"m/s2": 1.0, "g": 9.80665}
+# Units that a scale makes of these.
+SCALED_UNITS = {"mm/s2": ("m/s2", 1e-3), "cm/s2": ("m/s2", 1e-2), "mg": ("g", 1e-3)}
 Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
 # Longer than any recording, s.
 LONGEST_S = 1e9
@@ -23,6 +25,14 @@ VOLTS = 'volts of a sensor need a scale: unit = "g" and scale = 10 for 100 mV/g,
 IN_WORDS = "none means healthy, unknown that nobody said"
 FOLLOWS = "it follows from location and extent and can be left out: location says what is damaged"
 Name = Annotated[str, Field(min_length=1, max_length=120)]
+
+
+def _not_scaled(unit: object) -> object:
+    """The unit; raises PydanticCustomError that says how one that a scale makes of another is written."""
+    if isinstance(unit, str) and unit.casefold() in SCALED_UNITS:
+        whole, scale = SCALED_UNITS[unit.casefold()]
+        raise refuse("is written with a scale", allowed=f'unit = "{whole}" and scale = {scale:g}')
+    return unit
 
 
 class Channel(Table):
@@ -106,7 +116,7 @@ class RecordingSettings(Table):
     """Name of that one channel."""
     rate_hz: Annotated[float | FromVariable, number("rate_hz")] | None = None
     """Sampling rate, Hz; a .wav file says it itself."""
-    unit: Annotated[str, word(*UNITS, remark=VOLTS)] | None = None
+    unit: Annotated[str, BeforeValidator(_not_scaled), word(*UNITS, remark=VOLTS)] | None = None
     """Unit of the samples times `scale`."""
     scale: Annotated[float | FromVariable, number("scale")] | None = None
     """What the stored numbers are multiplied by; 1 if not given."""

@@ -156,7 +156,8 @@ def test_the_confusion_counts_rows_of_truth():
         ([1772.0, 1772.0 + 1e-10] * 6, [1772.0]),  # but for rounding the same
         ([0.0, 9.6e-16, -4.4e-16] * 4, [0.0]),  # likewise: records of 0 dB
         ([1771.9, 1772.3] * 6, [1772.1]),
-        ([900.0] * 6 + [1771.9, 1772.1, 1772.3] * 2, [900.0, 1772.2]),  # the lowest of the three fall to the bin before
+        ([900.0] * 6 + [1771.9, 1772.1, 1772.3] * 2, [900.0, 1772.1]),
+        ([900.0] * 5 + [1498.6, *[1501.2] * 6], [900.0, 1501.2]),  # none of the second speed falls to the bin before
         ([1730.0, 1750.0, 1772.0, 1797.0] * 3, [1730.0, 1750.0, 1784.5]),
         ([900.0, 1772.0] * 6, [900.0, 1772.0]),  # the largest value has a bin of its own where it fills one
         ([900.0] * 4 + [1200.0] * 4 + [1772.0] * 4, [900.0, 1200.0, 1772.0]),

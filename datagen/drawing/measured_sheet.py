@@ -25,6 +25,7 @@ from datagen.drawing.style import (
     png_of,
 )
 from datagen.drawing.time_panels import DYNAMIC_RANGE_DB
+from labels.schema import UNKNOWN
 from labels.spectrogram import spectrogram
 
 if TYPE_CHECKING:
@@ -86,13 +87,22 @@ def summary(portrait: MeasuredPortrait) -> str:
     """One line: machine, speed and how it is known, load, size, length and rate."""
     labels = portrait.labels
     parts = [
-        f"measured on {labels['rig']}, bearing {labels['bearing']}",
+        _machine(portrait),
         _speed(portrait),
         f"{digits(labels['load_n'], 5)} N" if math.isfinite(labels["load_n"]) else "load unknown",
         f"{labels['extent_mm']:.3g} mm" if labels["extent_mm"] > 0.0 else "",
         f"{portrait.duration:.4g} s at {portrait.rate:.6g} Hz",
     ]
     return "  ·  ".join(part for part in parts if part)
+
+
+def _machine(portrait: MeasuredPortrait) -> str:
+    """What was measured, as far as it is known."""
+    rig, bearing, balls = *(portrait.labels[name] for name in ("rig", "bearing")), portrait.labels.get("balls", 0.0)
+    on = "measured" if rig == UNKNOWN else f"measured on {rig}"
+    if bearing != UNKNOWN:
+        return f"{on}, bearing {bearing}"
+    return f"{on}, {balls:.0f} balls in a row" if balls > 0 else on
 
 
 def _speed(portrait: MeasuredPortrait) -> str:

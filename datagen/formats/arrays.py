@@ -21,6 +21,7 @@ from physics.spelling import suggestion
 
 Arrays = Mapping[str, NDArray[Any]]
 INDEXED = re.compile(r"(?P<name>.+)\[(?P<places>[-+\d:,\s]+)\]")
+COUNTED = re.compile(r"\[\d+\]")
 MOST_NAMES = 12
 MOST_ALIKE, LETTERS_ALIKE = 4, 3
 ONLY_NAME = "data"
@@ -130,12 +131,21 @@ def chosen(arrays: Arrays, wish: str, path: Path, field: str) -> tuple[str, str 
         )
         raise NoVariable(problem, str(path), field, text, allowed)
     hint = arrays.hint if isinstance(arrays, Columns) else ""
-    hint = hint or _alike(text, names) or suggestion(text, names)
+    hint = hint or _elements(text, names) or _alike(text, names) or suggestion(text, names)
     raise NoVariable(f"the file has no such variable{hint}", str(path), field, text, _shown(names))
 
 
 def _shown(names: list[str]) -> str:
     return ", ".join(names[:MOST_NAMES]) + (f" and {len(names) - MOST_NAMES} more" if len(names) > MOST_NAMES else "")
+
+
+def _elements(wish: str, names: list[str]) -> str:
+    """A closing remark where the wish names an element of an array of structures by a text in it, as Y.vibration_1.Data
+    does, and these are counted; empty if it does not."""
+    parts = wish.split(".")
+    fewer = [parts[:place] + parts[place + 1 :] for place in range(1, len(parts))]
+    counted = [name for name in names if COUNTED.sub("", name).split(".") in fewer and COUNTED.search(name)]
+    return f"; its elements are counted from 0: {_shown(counted)}" if len(counted) > 1 else ""
 
 
 def _alike(wish: str, names: list[str]) -> str:

@@ -21,7 +21,8 @@ SHARD_BYTES = 64e6
 class PlannedRecord:
     """A record whose samples have been checked and are no longer in memory: `piece` of `request`, with its `index`.
 
-    `content` is the hash by which its samples are recognised when they are read again.
+    `content` is the hash by which its samples are recognised when they are read again, and `band` (Hz) that of its
+    envelope, which takes long to find.
     """
 
     index: int
@@ -30,6 +31,7 @@ class PlannedRecord:
     key: Key
     bytes: int
     content: str
+    band: tuple[float, float]
 
 
 class ImportPlan:
@@ -52,8 +54,9 @@ class ImportPlan:
             if self._is_new(record, request):
                 self._check_split(record, request)
                 self._doubt(record, request)
+                band = record.labels["envelope_band"]
                 self.records.append(
-                    PlannedRecord(len(self.records), request, piece, record.key, record.bytes, record.content)
+                    PlannedRecord(len(self.records), request, piece, record.key, record.bytes, record.content, band)
                 )
 
     def _doubt(self, record: Recorded, request: Request) -> None:

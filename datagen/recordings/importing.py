@@ -153,13 +153,14 @@ def _dataset(shard: list[PlannedRecord], manifest: Manifest) -> xarray.Dataset:
 
 
 def _read_again(shard: list[PlannedRecord]) -> Iterator[Recorded]:
-    wanted: dict[Request, dict[int, str]] = {}
+    wanted: dict[Request, dict[int, PlannedRecord]] = {}
     for planned in shard:
-        wanted.setdefault(planned.request, {})[planned.piece] = planned.content
-    for request, contents in wanted.items():
-        for piece, record in enumerate(read_recording(request)):
-            if piece in contents:
-                if record.content != contents[piece]:
+        wanted.setdefault(planned.request, {})[planned.piece] = planned
+    for request, pieces in wanted.items():
+        band = next(iter(pieces.values())).band
+        for piece, record in enumerate(read_recording(request, band)):
+            if piece in pieces:
+                if record.content != pieces[piece].content:
                     raise BadInput("the file changed while it was being imported", str(request.path))
                 yield record
 

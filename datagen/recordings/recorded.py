@@ -81,8 +81,11 @@ def _turns(labels: Mapping[str, Any]) -> float:
     return float(labels["speed_rpm"]) / RPM_PER_HZ * float(labels["duration_s"])
 
 
-def read_recording(request: Request) -> Iterator[Recorded]:
-    """The record of a request, or its pieces in order if it is to be cut; raises BadInput."""
+def read_recording(request: Request, known_band: tuple[float, float] | None = None) -> Iterator[Recorded]:
+    """The record of a request, or its pieces in order if it is to be cut; raises BadInput.
+
+    `known_band` (Hz): the band of its envelope, where an earlier reading has found it.
+    """
     source = open_source(request)
     axes = tuple(axis for axis in AXES if getattr(request.channel, axis) is not None)
     rate = _rate(source)
@@ -92,7 +95,8 @@ def read_recording(request: Request) -> Iterator[Recorded]:
     part = _part(source, rate, counts.shape[0])
     pieces = _pieces(source, rate, part)
     shortest = min(stop - start for start, stop in pieces)
-    band = _band(source, rate, shortest, counts[slice(*part), axes.index("y")] if "y" in axes else None)
+    along = counts[slice(*part), axes.index("y")] if "y" in axes else None
+    band = _band(source, rate, shortest, along) if known_band is None else known_band
     labels = recording_labels(source) | {"rate_hz": rate, "envelope_band": band}
     of_file = scale_doubts(source) | rate_doubts(source, rate, counts.shape[0]) | geometry_doubts(labels)
     speeds = shaft_speeds(source, rate, counts.shape[0], part, pieces)

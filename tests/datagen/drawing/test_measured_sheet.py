@@ -114,6 +114,8 @@ def test_heading_and_summary_say_what_is_known_and_no_more() -> None:
     assert "load unknown" in message
     assert "0.5 mm" in message
     assert "speed unknown" in summary(portrait(**UNKNOWN))
+    without_name = portrait(rig="unknown", bearing="unknown", balls=9.0)
+    assert summary(without_name).startswith("measured, 9 balls in a row  ·  1500 rpm")
 
 
 def test_dollar_signs_in_names_are_drawn_and_are_no_mathematics() -> None:

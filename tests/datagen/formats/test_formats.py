@@ -163,6 +163,16 @@ def test_an_absent_variable_is_refused_with_the_names_that_are_there() -> None:
         choose({"a": np.zeros((4, 2))}, "a[:,3]", Path("a.npy"), "y")
 
 
+def test_elements_of_an_array_of_structures_are_not_guessed_at_by_their_texts() -> None:
+    channels = {f"run.Y[{place}].Data": np.zeros(3) for place in range(7)} | {"run.X[0].Data": np.zeros(3)}
+    message = (
+        r"no such variable; its elements are counted from 0: run\.Y\[0\]\.Data, run\.Y\[1\].*run\.Y\[6\]\.Data; all"
+    )
+    with pytest.raises(NoVariable, match=message) as refused:
+        chosen(channels, "run.Y.vibration_1.Data", Path("run.mat"), "y")
+    assert "did you mean" not in str(refused.value)
+
+
 def write_7_3(path: Path) -> None:
     with h5py.File(path, "w", userblock_size=512) as file:
         for name, text in (("fs", "12000"), ("who", "me")):

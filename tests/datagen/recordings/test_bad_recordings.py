@@ -34,7 +34,7 @@ GOOD = '[[recording]]\nname = "all"\nfiles = "*.mat"\nunit = "g"\nrate_hz = 1000
         (("rate_hz = 1000", "rate_hz = -5"), "recording[1].rate_hz = -5; allowed: a number from 100 to 1e+07"),
         (('unit = "g"\n', ""), "recording[1] (all): unit: the unit of the samples is not given; allowed: m/s2, g"),
         (('unit = "g"', 'unit = "G"'), 'line 5: recording[1].unit = "G"; allowed: m/s2, g'),
-        (('unit = "g"', 'unit = "mm/s2"'), 'unit = "mm/s2": is written with a scale; allowed: unit = "m/s2" and scale = 0.001'),
+        (('unit = "g"', 'unit = "mm/s2"'), 'is written with a scale; allowed: unit = "m/s2" and scale = 0.001'),
         (('unit = "g"', 'unit = "mV"'), 'allowed: m/s2, g; volts of a sensor need a scale: unit = "g" and scale = 10'),
         (('"*.mat"', '"/*.mat"'), 'recording[1] (all): files = "/*.mat"; allowed: as in "folder/*.mat"'),
         (('"*.mat"', '""'), 'recording[1] (all): files = ""; allowed: as in'),

@@ -755,7 +755,7 @@ def test_a_recording_that_cannot_be_read_again_is_named_and_not_the_folder_that_
 ) -> None:
     asked: list[Request] = []
 
-    def read_once(request: Request) -> Iterator[Recorded]:
+    def read_once(request: Request, _: object = None) -> Iterator[Recorded]:
         asked.append(request)
         if len(asked) > 1:
             raise OSError(errno.EIO, "Input/output error", "a.mat")
@@ -773,7 +773,7 @@ def test_a_recording_that_cannot_be_read_again_is_named_and_not_the_folder_that_
 def test_a_recording_that_says_something_else_when_it_is_read_again_is_refused(
     bring: Bring, mat: Mat, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def read_changed(request: Request) -> Iterator[Recorded]:
+    def read_changed(request: Request, _: object = None) -> Iterator[Recorded]:
         return (replace(record, content="another") for record in read_recording(request))
 
     mat("a.mat")

@@ -254,7 +254,7 @@ def test_a_name_that_is_not_utf_8_is_refused_before_anything_is_read(
 ) -> None:
     mat("good.mat")
     os.rename(tmp_path / "good.mat", os.fsencode(tmp_path) + b"/M\xfchle.mat")
-    monkeypatch.setattr(importing, "read_recording", lambda request: pytest.fail("was read"))
+    monkeypatch.setattr(importing, "read_recording", lambda *request: pytest.fail("was read"))
     with pytest.raises(BadInput, match=r'M\\udcfchle\.mat": the name of this file is not UTF-8; allowed: the file re'):
         bring(SPEC + 'files = "*.mat"\n')
 

@@ -440,3 +440,13 @@ def test_modes_that_creep_back_under_a_strong_film_are_left_out_of_the_impulse_t
     acceleration = impulse_response(strong, RATE).acceleration
     assert np.isfinite(acceleration).all()
     assert acceleration.any()
+
+
+@pytest.mark.parametrize("row", [1, 2])
+def test_the_ball_at_an_edge_stands_at_the_spall_in_either_row(row, reference_scene):
+    scene = reference_scene("G1", 0.1)
+    spall = dataclasses.replace(scene.spalls[0], row=row)
+    edges = edges_of(dataclasses.replace(scene, spalls=(spall,)))
+    away = np.angle(np.exp(1j * (edges.angle - spall.angle)))
+    assert edges.time.size > 5
+    assert np.abs(away).max() < spall.extent < scene.rig.bearing.stagger / 2.0

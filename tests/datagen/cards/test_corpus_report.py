@@ -15,6 +15,7 @@ import scipy.io
 import xarray
 from command_line import run
 
+from datagen.cards.card import card_text
 from datagen.cards.corpus_report import CARD, METADATA, VOCABULARY, Report, write_report
 from datagen.cards.croissant import croissant_text, unstated
 from datagen.cards.facts import Terms, corpus_facts, solved
@@ -294,3 +295,61 @@ def test_the_spread_of_errors_is_told_by_quantiles_and_what_is_unknown_is_counte
     # Quantiles of 0, 1, … 100.
     assert (found.median_error, found.error_95_percent, found.largest_error) == pytest.approx((50.0, 95.0, 100.0))
     assert (found.records, found.errors_unknown) == (104, 3)
+
+
+def test_a_kind_has_the_shard_that_holds_its_first_record(tiny_corpus: Path) -> None:
+    shards = Corpus(tiny_corpus).labels.set_index("record")["shard"]
+    kinds = corpus_facts(tiny_corpus).kinds
+    assert [kind.shard for kind in kinds] == [shards[kind.first] for kind in kinds]
+
+
+def test_lengths_of_records_are_told_from_the_shortest_to_the_longest(copy: Path) -> None:
+    index = pandas.read_csv(copy / "index.csv", keep_default_na=False)
+    index.loc[[0, 5], "duration_s"] = [0.02, 3.0]
+    index.to_csv(copy / "index.csv", index=False)
+    facts = corpus_facts(copy)
+    assert facts.durations_s == (0.02, 3.0)
+    assert "; 0.02 to 3 s a record |" in card_text(facts, "", {})
+
+
+def test_the_card_counts_the_records_of_a_kind_below_the_name_of_each_split(copy: Path) -> None:
+    index = pandas.read_csv(copy / "index.csv", keep_default_na=False)
+    index["split"] = ["test"] * 3 + ["validation"] * 5 + ["train"] * 6
+    index.to_csv(copy / "index.csv", index=False)
+    lines = card_text(corpus_facts(copy), "", {}).splitlines()
+    assert "| condition | location | records | train | validation | test |" in lines
+    for (condition, location), rows in index.groupby(["condition", "location"]):
+        counts = " | ".join(str((rows["split"] == split).sum()) for split in ("train", "validation", "test"))
+        assert f"| {condition} | {location} | {len(rows)} | {counts} |" in lines
+    assert "| all |  | 14 | 6 | 5 | 3 |" in lines
+
+
+def test_the_card_counts_the_records_that_could_not_be_made(tiny_corpus: Path) -> None:
+    facts = corpus_facts(tiny_corpus)
+    lacking = replace(facts, info=replace(facts.info, records=12, failed=2))
+    assert "| records | 12 of 14 asked for, 2 could not be made; the recipe has 14 |" in card_text(lacking, "", {})
+
+
+def test_examples_are_of_the_most_frequent_kinds(
+    tiny_corpus: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    kinds = corpus_facts(tiny_corpus).kinds
+    most = max(kinds, key=lambda kind: kind.records)
+    assert most.records > kinds[0].records
+    monkeypatch.setattr("datagen.cards.corpus_report.MOST_EXAMPLES", 1)
+    files = write_report(tiny_corpus, tmp_path / "card").files
+    assert [name for name in files if name.startswith("record_")] == [f"record_{most.first:06d}.png"]
+
+
+def test_croissant_finds_the_files_from_a_folder_behind_a_link(tiny_corpus: Path, tmp_path: Path) -> None:
+    (tmp_path / "deep" / "card").mkdir(parents=True)
+    out = tmp_path / "card"
+    out.symlink_to(tmp_path / "deep" / "card")
+    document = json.loads(croissant_text(tiny_corpus, corpus_facts(tiny_corpus), out))
+    assert (out / document["distribution"][0]["contentUrl"]).samefile(tiny_corpus / "index.csv")
+
+
+def test_a_recipe_of_another_version_is_shown_as_it_is_stored(tiny_corpus: Path) -> None:
+    manifest = Corpus(tiny_corpus).manifest
+    newer = manifest.recipe | {"unheard_of": 7}
+    assert tomllib.loads(origin_text(replace(manifest, recipe=newer)))["unheard_of"] == 7

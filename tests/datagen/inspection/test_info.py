@@ -8,6 +8,7 @@ from collections import Counter
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas
@@ -18,7 +19,7 @@ from rich.console import Console
 from datagen.cards.card import card_text
 from datagen.cards.facts import corpus_facts
 from datagen.commands.tables import info_tables
-from datagen.corpus_files.manifest import read_manifest
+from datagen.corpus_files.manifest import read_manifest, write_manifest
 from datagen.inspection.info import Info, Range, corpus_info
 from datagen.recipes.recipe import Recipe, load_recipe
 from datagen.runs.generate import generate
@@ -240,3 +241,27 @@ def test_no_table_of_reasons_is_shown_where_there_are_none(copy: Path) -> None:
     index.to_csv(copy / "index.csv", index=False)
     assert corpus_info(copy).validity == {}
     assert "because" not in shown_text(corpus_info(copy))
+
+
+def test_the_cost_of_a_record_is_divided_among_those_that_were_made(copy: Path) -> None:
+    index = pandas.read_csv(copy / "index.csv", keep_default_na=False)
+    index[:-4].to_csv(copy / "index.csv", index=False)  # as where four of those asked for could not be made
+    info = corpus_info(copy)
+    assert info.record_seconds == info.worker_seconds / (info.asked - 4)
+
+
+def test_a_corpus_that_took_no_time_has_no_speed(copy: Path) -> None:
+    write_manifest(copy, replace(read_manifest(copy), seconds=0.0))  # thousandths of a second are kept
+    assert corpus_info(copy).made_per_second == 0.0
+
+
+def test_a_shard_that_cannot_be_opened_is_damaged(copy: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    entry, opened = read_manifest(copy).shards[1], Path.open
+
+    def refusing(path: Path, *how: Any, **more: Any) -> Any:
+        if path == copy / entry.file:
+            raise PermissionError(13, "Permission denied")
+        return opened(path, *how, **more)
+
+    monkeypatch.setattr(Path, "open", refusing)
+    assert corpus_info(copy).damaged_files == {entry.file: entry.records}

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from command_line import run
 from imports import Bring, Mat, noise, refusal
+from scipy.io import wavfile
 
 from datagen.corpus import Corpus
 from datagen.corpus_files.manifest import write_manifest
@@ -260,6 +261,7 @@ def test_a_column_of_notes_that_the_label_table_lacks_is_named(bring: Bring, mat
     ("cells", "refused"),
     [
         (("-1,500", "2.5"), "-1,500"),
+        (("150,000", "2.5"), "150,000"),
         (("1,500", "-2.5"), "1,500"),
         (("-2.5", "+1,500"), "+1,500"),
         (("0,125", "2.5"), ""),  # no thousand begins with 0
@@ -438,3 +440,10 @@ def test_a_file_is_another_by_its_size_its_time_or_where_it_lies_alone(changed: 
         else:
             with pytest.raises(BadInput, match="the file changed while it was being imported"):
                 require_unchanged(path)
+
+
+def test_a_wave_file_of_a_rate_that_no_recording_has_is_refused(bring: Bring, tmp_path: Path) -> None:
+    wavfile.write(tmp_path / "a.wav", 50, np.arange(400, dtype=np.int16))
+    spec = '[[recording]]\nname = "all"\nfiles = "*.wav"\nunit = "g"\ny = "data"\n'
+    with pytest.raises(BadInput, match=r"a\.wav: rate_hz = 50\.0: the file's own; allowed"):
+        bring(spec)

@@ -847,3 +847,37 @@ def test_records_of_a_kind_share_a_shard_up_to_its_limit(
         with xarray.open_dataset(path) as shard:
             sizes.append(shard.sizes["record"])
     assert sizes == [2] * 5  # two records of 100 samples of four bytes are 800 bytes, three 1200
+
+
+@pytest.mark.parametrize(("plateau", "doubted"), [(11, False), (12, True)])
+def test_a_thousandth_of_the_samples_may_follow_another_at_the_limits(
+    plateau: int, doubted: bool, mat: Mat, tmp_path: Path
+) -> None:
+    signal = noise(10_000)
+    signal[500 : 500 + plateau] = 9.0
+    mat("a.mat", signal)
+    assert ("peaks cut off" in told_of('files = "*.mat"\nrate_hz = 1000\ny = "sig"\n', tmp_path)) == doubted
+
+
+@pytest.mark.parametrize(("length", "doubted"), [(200, False), (201, True)])
+def test_a_hundredth_of_a_long_signal_may_stand_still(length: int, doubted: bool, mat: Mat, tmp_path: Path) -> None:
+    signal = noise(20_000)
+    signal[500 : 500 + length] = 0.3
+    mat("a.mat", signal)
+    assert ("stretch of one value" in told_of('files = "*.mat"\nrate_hz = 1000\ny = "sig"\n', tmp_path)) == doubted
+
+
+def test_files_of_one_name_in_several_folders_have_each_its_hash_in_the_manifest(bring: Bring, mat: Mat) -> None:
+    mat("1/a.mat")
+    mat("2/a.mat")
+    spec = '[[recording]]\nname = "all"\nfiles = "*/a.mat"\nunit = "g"\nrate_hz = 1000\ny = "sig"\n'
+    hashes = bring(spec + 'recording = "{path}"\n').manifest.recipe["files"]
+    assert list(hashes) == ["1/a.mat", "2/a.mat"]
+    assert len(set(hashes.values())) == 2
+
+
+def test_a_shard_is_filled_to_its_limit(bring: Bring, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    np.save(tmp_path / "a.npy", noise(400))
+    monkeypatch.setattr("datagen.recordings.import_plan.SHARD_BYTES", 800.0)
+    spec = '[[recording]]\nname = "all"\nfiles = "a.npy"\nunit = "g"\nrate_hz = 1000\ny = "data"\ncut_s = 0.1\n'
+    assert [entry.records for entry in bring(spec).manifest.shards] == [2, 2]

@@ -263,3 +263,30 @@ def test_a_name_too_long_for_a_file_is_refused_where_a_table_has_it(bring: Bring
     (tmp_path / "t.csv").write_text(f"file,load_n\n{'a' * 300},7\n")
     with pytest.raises(BadInput, match=r't\.csv, line 2: file = "aaaa.*: no such file below'):
         bring(SPEC + 'table = "t.csv"\n')
+
+
+def test_a_table_beside_the_spec_goes_before_one_of_that_name_below_the_root(
+    bring: Bring, mat: Mat, tmp_path: Path
+) -> None:
+    mat("below/a.mat")
+    (tmp_path / "t.csv").write_text("file,location\na.mat,inner\n")
+    (tmp_path / "below" / "t.csv").write_text("file,location\na.mat,outer\n")
+    spec = 'root = "below"\n[[recording]]\nname = "all"\ntable = "t.csv"\nunit = "g"\nrate_hz = 1000\ny = "sig"\n'
+    assert bring(spec).labels["location"].tolist() == ["inner"]
+
+
+def test_a_pattern_without_a_file_is_told_as_absent(mat: Mat, tmp_path: Path) -> None:
+    mat("a.mat")
+    spec = load_spec_of(tmp_path, SPEC + 'files = ["a.mat", "b*.mat"]\nabsent_files = "skip"\n')
+    assert importing.import_recordings(spec, tmp_path / "out").absent == ("b*.mat",)
+
+
+def test_several_rows_of_a_table_about_one_file_that_a_pattern_finds_are_as_many_records(
+    bring: Bring, mat: Mat, tmp_path: Path
+) -> None:
+    mat("a.mat")
+    (tmp_path / "t.csv").write_text("file,recording,to_s,location\na.mat,all,,inner\na.mat,half,0.2,outer\n")
+    labels = bring(SPEC + 'files = "*.mat"\ntable = "t.csv"\n').labels
+    assert labels[["recording", "duration_s", "location"]].values.tolist() == [
+        ["all", 0.4, "inner"], ["half", 0.2, "outer"],
+    ]  # fmt: skip

@@ -492,3 +492,22 @@ def test_a_part_in_which_the_shaft_turns_is_taken_of_a_recording_in_which_it_res
     assert behind.labels["speed_rpm"].tolist() == pytest.approx([6000.0, 6000.0])
     places = [json.loads(behind.waveform(record, "provenance"))["first_sample"] for record in (0, 1)]
     assert places == [290, 345]
+
+
+def test_a_tach_whose_pulses_give_a_speed_that_no_shaft_has_is_refused(bring: Bring, mat: Mat) -> None:
+    mat("a.mat", tacho=PULSES)
+    message = r"a\.mat: tach\.pulses_per_rev = 0\.001: its pulses give 1\.5e\+06 revolutions per minute; allowed"
+    with pytest.raises(BadInput, match=message):
+        bring(TACH.replace('"tacho"', '"tacho", pulses_per_rev = 0.001'))
+
+
+@pytest.mark.parametrize("lost", [8, 9])
+def test_a_tenth_of_the_pulses_of_a_tach_may_be_wrong(bring: Bring, mat: Mat, lost: int) -> None:
+    pulses = np.tile([0.0] * 49 + [1.0], 80)
+    pulses[np.arange(1, lost + 1) * 400 + 49] = 0.0
+    mat("a.mat", np.random.default_rng(1).standard_normal(pulses.size), tacho=pulses)
+    if lost == 8:
+        assert bring(TACH).labels["speed_rpm"].tolist() == pytest.approx([1200.0])
+        return
+    with pytest.raises(BadInput, match="9 of the 80 pulses of its tach are missing or double"):
+        bring(TACH)

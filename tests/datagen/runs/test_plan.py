@@ -94,3 +94,10 @@ def test_a_plan_that_takes_long_tells_how_far_it_has_got(tiny: Recipe, monkeypat
     monkeypatch.setattr("datagen.runs.plan.SECONDS_BETWEEN_REPORTS", 0.0)
     plan_shards(tiny, 3, said.append)
     assert said == [f"{record} of 3 records are drawn; none is made before all are" for record in range(3)]
+
+
+def test_a_record_takes_in_memory_what_it_takes_without_compression(tiny: Recipe) -> None:
+    for shard in plan_shards(tiny, tiny.count):
+        scenario = draw_scenario(tiny, shard.records[0])
+        assert shard.raw_bytes == stored_bytes(scenario, shard.stored, "none")
+        assert shard.record_bytes == stored_bytes(scenario, shard.stored, tiny.store.compression)

@@ -150,3 +150,10 @@ def test_how_much_a_vote_raises_is_taken_from_the_records_nearest_their_own_alar
     alarm = fit_alarm(probability_of(level), table, records, np.zeros(100, dtype=bool), axes, 0.1)
     assert logit(np.array([alarm.in_noise, alarm.in_clear])) == pytest.approx([-2.0, 7.9])
     assert alarm.several == pytest.approx((6 * 0.0 + 4 * 1.0) / 10)
+
+
+def test_a_kurtosis_of_two_hundredths_is_like_noise_and_of_six_clear():
+    table = np.zeros((4, len(FEATURE_NAMES)))
+    table[:, FEATURE_NAMES.index("median_band_kurtosis")] = [0.02, 0.021, 0.059, 0.06]
+    found = clearness(table)
+    assert found[0] == 0.0 < found[1] < found[2] < found[3] == pytest.approx(1.0)

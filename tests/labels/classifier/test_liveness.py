@@ -165,3 +165,14 @@ def test_what_a_recorder_does_not_let_through_is_no_colour():
     spectrum = np.fft.rfft(np.random.default_rng(5).standard_normal(TIME.size))
     spectrum[:700], spectrum[8000:] = 0.0, 0.0  # of 9500 components that are looked at
     assert abs(found(np.fft.irfft(spectrum, TIME.size)).colour) < WHITE
+
+
+SILENT = {"velocity": 1.0, "digits": 1.99, "colour": 0.0499, "evidence": 29.9, "turns": 15.0}
+
+
+@pytest.mark.parametrize(
+    ("more", "reason"),
+    [({}, STOPPED), ({"digits": 2.0}, ""), ({"colour": 0.05}, ""), ({"evidence": 30.0}, ""), ({"turns": 14.9}, "")],
+)
+def test_each_sign_of_a_running_machine_is_enough_from_its_stated_limit_on(more, reason):
+    assert Liveness(**SILENT | more).reason == reason

@@ -71,3 +71,8 @@ def test_a_vote_is_raised_by_the_column_that_is_highest_in_it():
 def test_rows_of_records_that_are_not_asked_for_are_left_out():
     found = averaged(np.array([0.8, 0.2, 0.9]), np.array([3, 3, 5]), np.array([3]))
     assert found == pytest.approx([0.5])
+
+
+def test_of_axes_with_unlike_numbers_of_windows_the_higher_mean_counts_twice():
+    shares = vote_shares(np.array([0.6, 0.6, 1.0]), np.array([4, 4, 4]), np.array([0, 0, 1]))
+    assert shares == pytest.approx([1 / 6, 1 / 6, 2 / 3])

@@ -6,7 +6,6 @@ from collections.abc import Generator, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,14 +14,10 @@ from datagen.benchmark.reading_policy import Reading
 from datagen.benchmark.record_rows import RecordFacts, RecordRows, feature_rows, record_rows
 from datagen.benchmark.rows import Rows, joined
 from datagen.corpus import Corpus
-from datagen.corpus_files.index import read_index
 from datagen.processes import processes
 from datagen.progress import Count, ignore
 from labels.features.turning import Turning
 from labels.variables import SHAFT_ANGLE
-
-if TYPE_CHECKING:
-    import pandas
 
 RECORDS_A_TASK = 24
 
@@ -53,8 +48,7 @@ def read_records(
 ) -> dict[int, RecordRows]:
     """Rows of each of the `records` of a corpus, made by several processes, each with one waveform in memory; `count`
     is called with how many are done."""
-    labels = read_index(folder).set_index("record", drop=False).loc[records]
-    tasks = [labels.iloc[start : start + RECORDS_A_TASK] for start in range(0, records.size, RECORDS_A_TASK)]
+    tasks = [records[start : start + RECORDS_A_TASK] for start in range(0, records.size, RECORDS_A_TASK)]
     found: dict[int, RecordRows] = {}
     count(0, records.size)
     with closing(_results(folder, tasks, reading, workers)) as results:
@@ -71,9 +65,9 @@ def rows_of_records(found: Mapping[int, RecordRows]) -> CorpusRows:
 
 
 def _results(
-    folder: Path, tasks: Sequence[pandas.DataFrame], reading: Reading, workers: int
+    folder: Path, tasks: Sequence[NDArray[np.int64]], reading: Reading, workers: int
 ) -> Generator[dict[int, RecordRows], None, None]:
-    """What each task, the labels of some records, finds, in order, as it comes."""
+    """What each task finds, in order, as it comes."""
     from joblib import Parallel, delayed
 
     if workers <= 1 or len(tasks) < 2:
@@ -86,12 +80,12 @@ def _results(
     return results
 
 
-def _task(folder: Path, labels: pandas.DataFrame, reading: Reading) -> dict[int, RecordRows]:
+def _task(folder: Path, records: NDArray[np.int64], reading: Reading) -> dict[int, RecordRows]:
     with Corpus(folder) as corpus:
-        corpus.labels = labels  # a large index takes long to read again for every task
+        labels = corpus.labels.set_index("record", drop=False)
         return {
             record: record_rows(corpus.waveform(record), labels.loc[record], reading, _turning(corpus, record))
-            for record in labels["record"].tolist()
+            for record in records.tolist()
         }
 
 

@@ -12,6 +12,7 @@ from datagen.corpus_files.manifest import Span, add_spans
 from datagen.corpus_files.shard import shards_folder
 from datagen.errors import BadInput
 from datagen.files.atomic import locked
+from datagen.files.netcdf import check_compression
 from datagen.files.places import OUT, from_home
 from datagen.progress import SILENT, Listener
 from datagen.recipes.recipe import Recipe
@@ -42,6 +43,7 @@ def generate(
     """
     began, folder = time.monotonic(), from_home(folder)
     asked = selection(recipe, limit, records)
+    check_compression(recipe.store.compression)
     identity = corpus_identity(recipe)
     earlier = earlier_runs(folder, identity).asked
     require_memory(recipe)

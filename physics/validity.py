@@ -138,7 +138,7 @@ def _ball_inertia(scene: Scene, peak: float) -> str:
     if force <= NEGLIGIBLE_SHARE * peak:
         return ""
     return (
-        f"the inertia of a ball on its way over the spall ({force:.3g} N, 2 m h / t² of the steepest drop h and its "
+        f"the inertia of a ball on its way over the spall ({force:.3g} N, 2 m h / t^2 of the steepest drop h and its "
         f"time t; a cosine edge peaks at 2.5 times that) is left out but is {_share(force, peak)} the peak ball load "
         f"({peak:.3g} N)"
     )

@@ -6,6 +6,7 @@ from collections.abc import Generator, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,10 +15,14 @@ from datagen.benchmark.reading_policy import Reading
 from datagen.benchmark.record_rows import RecordFacts, RecordRows, feature_rows, record_rows
 from datagen.benchmark.rows import Rows, joined
 from datagen.corpus import Corpus
+from datagen.corpus_files.index import read_index
 from datagen.processes import processes
 from datagen.progress import Count, ignore
 from labels.features.turning import Turning
 from labels.variables import SHAFT_ANGLE
+
+if TYPE_CHECKING:
+    import pandas
 
 RECORDS_A_TASK = 24
 
@@ -48,7 +53,9 @@ def read_records(
 ) -> dict[int, RecordRows]:
     """Rows of each of the `records` of a corpus, made by several processes, each with one waveform in memory; `count`
     is called with how many are done."""
-    tasks = [records[start : start + RECORDS_A_TASK] for start in range(0, records.size, RECORDS_A_TASK)]
+    labels = read_index(folder).set_index("record", drop=False)
+    parts = [records[start : start + RECORDS_A_TASK] for start in range(0, records.size, RECORDS_A_TASK)]
+    tasks = [(part, labels[labels.index.isin(part)]) for part in parts]
     found: dict[int, RecordRows] = {}
     count(0, records.size)
     with closing(_results(folder, tasks, reading, workers)) as results:
@@ -65,24 +72,27 @@ def rows_of_records(found: Mapping[int, RecordRows]) -> CorpusRows:
 
 
 def _results(
-    folder: Path, tasks: Sequence[NDArray[np.int64]], reading: Reading, workers: int
+    folder: Path, tasks: Sequence[tuple[NDArray[np.int64], pandas.DataFrame]], reading: Reading, workers: int
 ) -> Generator[dict[int, RecordRows], None, None]:
-    """What each task finds, in order, as it comes."""
+    """What each task, some records and their labels, finds, in order, as it comes."""
     from joblib import Parallel, delayed
 
     if workers <= 1 or len(tasks) < 2:
-        return (_task(folder, task, reading) for task in tasks)
+        return (_task(folder, *task, reading) for task in tasks)
     with processes(workers):
         parallel = Parallel(batch_size=1, return_as="generator")
     results: Generator[dict[int, RecordRows], None, None] = parallel(
-        delayed(_task)(folder, task, reading) for task in tasks
+        delayed(_task)(folder, *task, reading) for task in tasks
     )
     return results
 
 
-def _task(folder: Path, records: NDArray[np.int64], reading: Reading) -> dict[int, RecordRows]:
+def _task(
+    folder: Path, records: NDArray[np.int64], labels: pandas.DataFrame, reading: Reading
+) -> dict[int, RecordRows]:
     with Corpus(folder) as corpus:
-        labels = corpus.labels.set_index("record", drop=False)
+        if len(labels) == records.size:  # otherwise one is missing, which is told from the whole index
+            corpus.labels = labels  # a large index takes long to read again for every task
         return {
             record: record_rows(corpus.waveform(record), labels.loc[record], reading, _turning(corpus, record))
             for record in records.tolist()

@@ -207,7 +207,7 @@ def test_fast_running_brings_ball_inertia_and_centrifugal_force_into_the_note(fa
         "the centrifugal force of a ball (5.62 N) is left out but is 0.24 times the peak ball load (23.3 N)"
     )
     assert notes[1].startswith(
-        "the inertia of a ball on its way over the spall (219 N, 2 m h / t² of the steepest drop h"
+        "the inertia of a ball on its way over the spall (219 N, 2 m h / t^2 of the steepest drop h"
     )
     assert "is left out but is 9.4 times" in notes[1]
     assert len(notes) == 2

@@ -25,8 +25,8 @@ def load_dips(scene: Scene, row: int, ball: NDArray[np.integer], entry: Array, l
     (N,), s. NaN where the load does not both fall and rise between the edges. That of a ball which comes into the load
     zone, or goes out of it, inside the spall neither falls nor rises there.
     Both loads are solved at 400 equal steps of each pass, so times are exact to about a thousandth of it, and to half a
-    step at a wall; over a rough
-    floor a dip shorter than a step may be missed, and the times then are those of a dip beside it.
+    step at a wall; over a rough floor a dip shorter than a step may be missed, and the times then are those of a dip
+    beside it.
     """
     fall, rise = np.full(entry.size, np.nan), np.full(entry.size, np.nan)
     if entry.size == 0:

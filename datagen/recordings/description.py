@@ -100,7 +100,7 @@ def _check_orders(source: Source, stated: dict[str, float]) -> None:
     """Refuse orders that no bearing has, such as frequencies in Hz: BPFO and BPFI add up to the number of balls, and
     BPFO is that number times the order of the cage."""
     if len({"bpfo", "bpfi"} & stated.keys()) == 1:
-        _check_single(source, *next((name, stated[name]) for name in ("bpfo", "bpfi") if name in stated))
+        _check_single(source, stated)
     outer, inner = stated.get("bpfo", 0.0), stated.get("bpfi", math.inf)
     balls = outer + inner
     if outer >= inner or MOST_BALLS < balls < math.inf:
@@ -116,12 +116,13 @@ def _check_orders(source: Source, stated: dict[str, float]) -> None:
     _check_cage(source, stated)
 
 
-def _check_single(source: Source, name: str, order: float) -> None:
-    """Refuse a BPFO that is half of too many balls or more, or a BPFI that is so many, where the other is unknown."""
-    fewest = 2.0 * order if name == "bpfo" else order
+def _check_single(source: Source, stated: dict[str, float]) -> None:
+    """Refuse a BPFO or a BPFI, of which the other is not stated, that only a bearing with too many balls has: BPFO is
+    less than half of their number, BPFI less than all of it."""
+    name, fewest = ("bpfo", 2.0 * stated["bpfo"]) if "bpfo" in stated else ("bpfi", stated["bpfi"])
     if fewest > MOST_BALLS:
         raise BadInput(
-            f"it would mean a bearing with more than {fewest:g} balls", source.request.place, name, order,
+            f"it would mean a bearing with more than {fewest:g} balls", source.request.place, name, stated[name],
             f"an order of the shaft, of a bearing with at most {MOST_BALLS} balls",
         )  # fmt: skip
 

@@ -8,8 +8,7 @@ longer holds the break itself, where the force starts like a root. Not to be con
 state, whose step the resonator would limit.
 
 The state is longer by eleven: order, length and end time of the step before, a mark of its contact set, how many equal
-steps were made since the last break (four at most), and the last three forces, two
-numbers each.
+steps were made since the last break (four at most), and the last three forces, two numbers each.
 """
 
 from __future__ import annotations

@@ -28,8 +28,8 @@ from physics.statics.load_distribution import require_carried
 from physics.statics.successive_rest import expected, rest_at
 
 # Polynomials of four and six neighbours may differ by this share of kyy. Measured in tests/physics: the trace is then
-# within a tenth of 1e-4 of kyy (RMS) of the one solved everywhere. Where both agree by
-# chance, single instants are off by some 1e-4.
+# within a tenth of 1e-4 of kyy (RMS) of the one solved everywhere. Where both agree by chance, single instants are off
+# by some 1e-4.
 AGREEMENT = 1e-5
 # Share of the load that may be left unbalanced where it is solved.
 TOLERANCE = 1e-7

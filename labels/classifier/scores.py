@@ -21,7 +21,7 @@ LEVEL = 0.95
 FEWEST_A_SIDE = 5
 # Spread of a score over the draws that is rounding alone.
 SAME = 1e-9
-# Share of the largest value by which the lower ends of bins differ at least.
+# Share of a value by which the lower ends of bins differ at least.
 NEAR = 3e-3
 # ... and by this at least: ratios set to 0 dB are 0 but for rounding.
 ROUNDING = 1e-9
@@ -206,10 +206,15 @@ def confusion(truth: Names, said: Names, rows: Sequence[str], columns: Sequence[
 def _starts(quantity: Array, bins: int) -> Array:
     """Lower ends (B,) of so many bins of a `quantity` (N,): values of it, so that none parts those that are nearly
     the same, as are measurements of one speed."""
-    near, values = max(NEAR * np.abs(quantity).max(), ROUNDING), np.sort(quantity)
+    values = np.sort(quantity)
     parted = np.quantile(values, np.linspace(0.0, 1.0, bins, endpoint=False))
-    starts = np.unique(values[np.searchsorted(values, parted - near)])
-    return starts[np.diff(starts, prepend=-np.inf) > near]
+    starts = np.unique(values[np.searchsorted(values, parted - _near(parted))])
+    return starts[np.diff(starts, prepend=-np.inf) > _near(starts)]
+
+
+def _near(values: Array) -> Array:
+    """How far from each of the `values` (N,) others are nearly the same."""
+    return np.maximum(NEAR * np.abs(values), ROUNDING)
 
 
 def accuracy_against(

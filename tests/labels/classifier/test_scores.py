@@ -161,6 +161,7 @@ def test_the_confusion_counts_rows_of_truth():
         ([1730.0, 1750.0, 1772.0, 1797.0] * 3, [1730.0, 1750.0, 1784.5]),
         ([900.0, 1772.0] * 6, [900.0, 1772.0]),  # the largest value has a bin of its own where it fills one
         ([900.0] * 4 + [1200.0] * 4 + [1772.0] * 4, [900.0, 1200.0, 1772.0]),
+        ([0.3] * 4 + [0.6] * 4 + [200.0] * 4, [0.3, 0.6, 200.0]),  # small beside the largest, and not the same
     ],
 )
 def test_values_that_are_nearly_the_same_share_a_bin(speeds, places):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 from typing import Any, get_args
 
@@ -104,9 +105,15 @@ def _kind(table: type[BaseModel], name: str) -> str:
     settings = [note for note in (*field.metadata, *_notes(field.annotation)) if hasattr(note, "allowed")]
     if settings:
         return f"{_words(settings[0].allowed())}, *drawn*"
-    schemas = recipe_schema()
+    schemas = _schemas()
     owner = schemas if table is Recipe else schemas["$defs"][table.__name__]
     return _plain(owner["properties"][name])
+
+
+@cache
+def _schemas() -> dict[str, Any]:
+    """The JSON Schema of recipes, of which every key asks for its part."""
+    return recipe_schema()
 
 
 def _plain(schema: dict[str, Any]) -> str:

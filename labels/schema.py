@@ -15,8 +15,6 @@ HEALTHY = "healthy"
 CONDITIONS = (HEALTHY, "line", "extended")
 LOCATIONS = ("none", *RACES)
 SPLITS = ("train", "validation", "test")
-# Ball spacings, less what rounding takes off, from which a spall is "extended".
-EXTENDED_FROM = 1.0 - 1e-9
 SPEED_BASES = ("set", "measured", "tach", "nominal")
 UNKNOWN = "unknown"
 MEASURED = "measured"

@@ -24,10 +24,12 @@ PROFILES = ("tukey", "ball_path", "table")
 DEEPEST = 1e-2
 # The first and the last are 0; fewer than two between them cannot go up and down.
 FEWEST_ROUGHNESS_VALUES = 4
-# Shares of an arc that count as rounding. By the first, tapers may exceed a spall, neighbouring spalls overlap, and an
-# extended one fall short of the ball spacing; by the second, a table, whose degrees come from a file, may reach beyond
-# its spall.
-ARC_ROUNDING, TABLE_ROUNDING = 1e-12, 1e-9
+# Shares of an arc that count as rounding. By the first, tapers may exceed a spall and neighbouring spalls overlap; by
+# the second, where degrees were written down, a table may reach beyond its spall and an extended one fall short of the
+# ball spacing.
+ARC_ROUNDING, STATED_ROUNDING = 1e-12, 1e-9
+# Ball spacings from which a spall is extended.
+EXTENDED_FROM = 1.0 - STATED_ROUNDING
 
 
 @dataclass(frozen=True)
@@ -140,7 +142,7 @@ class Spall:
         for value in depth:
             require_between("table_depth", value, -DEEPEST, DEEPEST, "m")
         # Beyond its ends the table would be cut off by a wall.
-        half = 0.5 * self.extent * (1.0 + TABLE_ROUNDING)
+        half = 0.5 * self.extent * (1.0 + STATED_ROUNDING)
         for value in angle:
             require_between("table_angle", value, -half, half, "rad")
 
@@ -156,7 +158,7 @@ class Spall:
 
 def is_extended(extent: float, bearing: Bearing) -> bool:
     """True if the arc `extent` (rad) always holds at least one ball of its row: Δφ ≥ 2π/Nb."""
-    return extent >= bearing.spacing * (1.0 - ARC_ROUNDING)
+    return extent / bearing.spacing >= EXTENDED_FROM
 
 
 def require_apart(spalls: Sequence[Spall]) -> None:

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from datagen.corpus_files.format import LABEL_VARIABLES, is_imported
-from labels.schema import EXTENDED_FROM, LABEL
+from labels.schema import LABEL
 from labels.variables import VARIABLES, Variable
+from physics.spall import EXTENDED_FROM
 
 if TYPE_CHECKING:
     import xarray

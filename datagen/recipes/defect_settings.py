@@ -15,7 +15,7 @@ from datagen.recipes.profile_table import ProfileTable
 from datagen.recipes.quantities import Degrees, Share
 from datagen.settings.table import Between, OneOf, Table, Whole, at_most_one, possible_words, refuse
 from physics.bearing import RACES
-from physics.spall import ARC_ROUNDING
+from physics.spall import ARC_ROUNDING, EXTENDED_FROM
 
 EXTENTS = ("extent_deg", "extent_mm", "extent_spacing")
 ENTRY_TAPERS = ("entry_taper_deg", "entry_taper_share")
@@ -154,9 +154,9 @@ def _within_defect(defect: DefectSettings, combination: Combination, field: str)
 def _check_reach(extent: Distribution, condition: str, ball_counts: tuple[int, ...], field: str) -> None:
     """A line spall, of an extent in degrees, is shorter than the ball spacing of some bearing, an extended one not."""
     widest, narrowest = 360.0 / min(ball_counts), 360.0 / max(ball_counts)
-    if condition == "line" and min(extent.stated()) >= widest:
+    if condition == "line" and min(extent.stated()) >= widest * EXTENDED_FROM:
         raise refuse("a line spall is shorter than the ball spacing", field, f"below {widest:.6g}")
-    if condition == "extended" and max(extent.stated()) < narrowest * (1.0 - ARC_ROUNDING):
+    if condition == "extended" and max(extent.stated()) < narrowest * EXTENDED_FROM:
         raise refuse("an extended spall is at least as long as the ball spacing", field, f"{narrowest:.6g} or more")
 
 

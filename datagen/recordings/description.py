@@ -10,11 +10,12 @@ from datagen.errors import BadInput
 from datagen.recordings.settings import MOST_BALLS, BearingNumbers
 from datagen.recordings.source import Source
 from labels.description import NO_SPALL
-from labels.schema import EXTENDED_FROM, HEALTHY, LABELS, MEASURED, UNKNOWN, Label
+from labels.schema import HEALTHY, LABELS, MEASURED, UNKNOWN, Label
 from physics.bearing import RACES, Bearing
 from physics.catalog import bearing as catalogue_bearing
 from physics.checks import InvalidParameter
 from physics.hertz import BALL_EXPONENT
+from physics.spall import EXTENDED_FROM
 
 UNSOLVED: dict[str, Any] = {"model": MEASURED, "method": "none", "validity": "", "contact_law": UNKNOWN}
 NUMBERS = (

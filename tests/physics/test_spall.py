@@ -42,6 +42,10 @@ def test_a_spall_is_extended_from_one_ball_spacing_on(gearbox):
     assert not is_extended(0.999 * spacing, gearbox.bearing)
 
 
+def test_a_spacing_stated_in_degrees_of_nine_digits_is_a_whole_one(fan):
+    assert is_extended(math.radians(25.7142857), fan.bearing)
+
+
 @pytest.mark.parametrize(
     ("change", "field", "message"),
     [

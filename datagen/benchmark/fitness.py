@@ -8,8 +8,9 @@ from typing import Any
 from datagen.judging.known import what_is_missing
 from labels.band_tree import usable_bandwidth
 from labels.features.conditioning import FEWEST_SAMPLES_USED
+from labels.features.envelopes import HIGHEST_SHARE
 from labels.features.kinematics import Kinematics
-from labels.features.signal_features import FEWEST_TURNS, HIGHEST_SHARE
+from labels.features.signal_features import FEWEST_TURNS
 
 TOO_SHORT = "too short"
 TOO_FAST = "ball passes too fast for the rate"

@@ -10,7 +10,7 @@ import numpy as np
 from labels.band_tree import COMMON_BANDWIDTH
 from labels.features.combs import without_combs
 from labels.features.conditioning import Conditioned, condition
-from labels.features.envelopes import ENVELOPE_HARMONICS, EnvelopeSpectra, envelope_spectra
+from labels.features.envelopes import ENVELOPE_HARMONICS, HIGHEST_SHARE, EnvelopeSpectra, envelope_spectra
 from labels.features.families import HARMONICS, Family, find_family
 from labels.features.foreign_combs import MOST_COMBS, foreign_combs
 from labels.features.kinematics import SLIP_PRIOR, SLIP_TOLERANCE, Kinematics
@@ -62,7 +62,7 @@ class Analysis:
         return envelope_spectra(
             self.record,
             self.given.shaft_hz,
-            min(self.top_hz, 0.45 * self.record.bandwidth),
+            min(self.top_hz, HIGHEST_SHARE * self.record.bandwidth),
             NARROWEST_BAND * self.given.bpfi * self.given.shaft_hz,
         )
 

@@ -6,8 +6,10 @@ where those of a race are looked for, so they are taken out. `foreign_combs` and
 
 import numpy as np
 
-from labels.features.kinematics import Kinematics
+from labels.features.families import find_family
+from labels.features.kinematics import SLIP_PRIOR, SLIP_TOLERANCE, Kinematics
 from labels.features.known_lines import SHAFT_MARGIN, near_multiples
+from labels.features.lines import Lines
 from physics.arrays import Array, Flags
 
 # Slowest rate, in orders, that is looked for.
@@ -57,6 +59,16 @@ def _reach(mean: Array, step: float, comb: float, widest: float) -> float:
     beside = np.concatenate([mean[inside - away[:, None]], mean[inside + away[:, None]]], axis=1)
     standing = np.median(beside, axis=1) > BESIDE_A_LINE * np.median(mean)
     return LINE_REACHES * step + step * (away.size if standing.all() else int(standing.argmin()))
+
+
+def evident_family(lines: Lines, order: float, known: Kinematics) -> tuple[float, Lines] | None:
+    """Fundamental (Hz) of the bearing's family near an `order` of the shaft in the band that shows it best, and the
+    lines of this band alone; None if it is not EVIDENT."""
+    family = find_family(lines, order * known.shaft_hz, SLIP_TOLERANCE, known.shaft_hz, SLIP_PRIOR)
+    band = int(family.evidence.argmax())
+    if family.evidence[band] < EVIDENT:
+        return None
+    return float(family.fundamental[band]), Lines(lines.cumulated[band : band + 1], lines.step)
 
 
 def made_by_bearing(

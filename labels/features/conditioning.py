@@ -10,6 +10,7 @@ from scipy import fft
 
 from labels.band_tree import COMMON_BANDWIDTH, usable_bandwidth
 from labels.features.turning import Spectrum, Turning
+from labels.noise import ROUNDING
 from physics.arrays import Array
 
 FEWEST_SAMPLES_USED = 64
@@ -108,10 +109,13 @@ def local_mean_power(power: Array, block: int) -> Array:
 
 def over_floor(power: Array, block: int) -> Array:
     """Power (B, F) of spectra over its local mean, taken from blocks of `block` components; 0 at 0 Hz, which is no
-    line."""
-    floor = local_mean_power(power[:, 1:], block)
+    line.
+
+    Where a signal that repeats itself has nothing between its lines, rounding is the floor.
+    """
+    least = np.maximum(ROUNDING * power.mean(axis=-1, keepdims=True), np.finfo(np.float64).tiny)
     excess = np.zeros_like(power)
-    excess[:, 1:] = power[:, 1:] / np.maximum(floor, np.finfo(np.float64).tiny)
+    excess[:, 1:] = power[:, 1:] / np.maximum(local_mean_power(power[:, 1:], block), least)
     return excess
 
 

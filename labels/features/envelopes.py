@@ -15,6 +15,8 @@ from labels.features.turning import Spectrum, Turning
 from physics.arrays import Array
 
 ENVELOPE_HARMONICS = 4.0
+# Share of the bandwidth above which no band has lines of an envelope.
+HIGHEST_SHARE = 0.45
 FLOOR_ORDERS = 3.0
 FULL_SHARE = 0.85
 FEWEST_FLOOR_BINS = 16

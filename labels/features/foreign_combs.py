@@ -7,9 +7,9 @@ lines.
 import numpy as np
 from scipy.stats import binom
 
-from labels.features.combs import EVIDENT, FEWEST_LINES, LOOKED_AT, MOST_PARTS, SLOWEST, made_by_bearing
-from labels.features.families import STANDS_OUT, find_family, harmonic_evidence, tempered
-from labels.features.kinematics import SLIP_PRIOR, SLIP_TOLERANCE, Kinematics
+from labels.features.combs import FEWEST_LINES, LOOKED_AT, MOST_PARTS, SLOWEST, evident_family, made_by_bearing
+from labels.features.families import STANDS_OUT, harmonic_evidence, most_standing, standing, tempered
+from labels.features.kinematics import Kinematics
 from labels.features.known_lines import WIDEST_MARGIN, multiple_margin, near_multiples
 from labels.features.lines import Lines, lines_in
 from physics.arrays import Array, Flags
@@ -68,13 +68,11 @@ def _of_bearing(lines: Lines, count: int, known: Kinematics) -> Flags:
     place = np.arange(count) * lines.step
     explained = np.zeros(count, dtype=bool)
     for order, (turns, cages) in zip((known.bpfo, known.bpfi, 2.0 * known.ball_spin), SIDEBANDS, strict=True):
-        family = find_family(lines, order * shaft, SLIP_TOLERANCE, shaft, SLIP_PRIOR)
-        band = int(family.evidence.argmax())
-        if family.evidence[band] < EVIDENT:
+        family = evident_family(lines, order, known)
+        if family is None:
             continue
-        carrier = family.fundamental[band]
+        carrier, best = family
         carriers = int(place[-1] / carrier)
-        best = Lines(lines.cumulated[band : band + 1], lines.step)
         shown = harmonic_evidence(best, np.array([carrier]), shaft, 0.0, carriers)[:, 0, 0] >= STANDS_OUT
         for k in 1 + np.flatnonzero(shown):
             width = max(1.01 * lines.step, SIDEBAND_WIDTH * shaft + SIDEBAND_SPREAD * k * carrier)
@@ -162,6 +160,4 @@ def _sharpened(lines: Lines, rate: float, between: float, shaft_hz: float) -> fl
     rates = np.linspace(rate - 3.0 * between, rate + 3.0 * between, 121)
     multiples = int((lines.cumulated.shape[-1] - 4) * lines.step / rates[-1])
     nats = harmonic_evidence(lines, rates, shaft_hz, 0.0, multiples)[:, 0]
-    standing = np.minimum(nats, STANDS_OUT).sum(axis=0)
-    # Strong lines stand out in some components beside their middle too.
-    return float(rates[np.where(standing > standing.max() - STANDS_OUT, tempered(nats).sum(axis=0), 0.0).argmax()])
+    return float(rates[most_standing(standing(nats), tempered(nats).sum(axis=0))])

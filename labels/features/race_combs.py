@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from labels.features.combs import CAGE_TURNS, EVIDENT, FEWEST_LINES, LOOKED_AT, SLOWEST, made_by_bearing
-from labels.features.families import STANDS_OUT, find_family, harmonic_evidence
-from labels.features.kinematics import SLIP_PRIOR, SLIP_TOLERANCE, Kinematics
+from labels.features.combs import CAGE_TURNS, FEWEST_LINES, LOOKED_AT, SLOWEST, evident_family, made_by_bearing
+from labels.features.families import STANDS_OUT, harmonic_evidence
+from labels.features.kinematics import Kinematics
 from labels.features.lines import Lines, lines_in
 from physics.arrays import Array, Flags
 
@@ -28,13 +28,12 @@ def race_combs(excess: Array, step: float, known: Kinematics, readable: Flags) -
     slowest = max(SLOWEST * shaft, 4.0 * step)
     found = []
     for race in (known.bpfo, known.bpfi):
-        family = find_family(lines, race * shaft, SLIP_TOLERANCE, shaft, SLIP_PRIOR)
-        band = int(family.evidence.argmax())
-        if family.evidence[band] < EVIDENT:
+        family = evident_family(lines, race, known)
+        if family is None:
             continue
-        clearest = Lines(lines.cumulated[band : band + 1], step)
+        fundamental, clearest = family
         for part in range(MOST_RACE_PARTS, 2, -1):
-            rate = float(family.fundamental[band]) / part
+            rate = fundamental / part
             if rate < slowest or made_by_bearing(np.array([rate / shaft]), known, 0.0, FEW_CAGE_TURNS).any():
                 continue
             if _all_as_high(clearest, readable, rate, part):

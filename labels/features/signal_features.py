@@ -6,6 +6,7 @@ from labels.band_tree import COMMON_BANDWIDTH, usable_bandwidth
 from labels.dead_sensor import FEWEST_LEVELS, is_dead
 from labels.features.analysis import analyse
 from labels.features.conditioning import sound_signal
+from labels.features.envelopes import HIGHEST_SHARE
 from labels.features.kinematics import Kinematics
 from labels.features.mending import mended
 from labels.features.table import FEATURE_NAMES, feature_values
@@ -14,8 +15,6 @@ from physics.arrays import Array
 
 # Turns of the shaft: in a single one several balls pass even of a slow bearing, and it is judged well by them.
 FEWEST_TURNS = 1.0
-# Share of the bandwidth above which no band has lines of an envelope.
-HIGHEST_SHARE = 0.45
 
 
 def signal_features(

@@ -8,7 +8,14 @@ import numpy as np
 
 from labels.features.conditioning import FEWEST_BINS, Conditioned, over_floor
 from labels.features.envelopes import EnvelopeSpectra
-from labels.features.families import STANDS_OUT, find_family, harmonic_evidence, tempered
+from labels.features.families import (
+    STANDS_OUT,
+    find_family,
+    harmonic_evidence,
+    most_standing,
+    standing,
+    tempered,
+)
 from labels.features.kinematics import MEASURED_WITHIN, Kinematics
 from labels.features.lines import Lines, lines_in
 from physics.arrays import Array, Flags
@@ -115,15 +122,14 @@ def sharpened(spectrum: Lines, turning: Lines, known: Kinematics, factor: float,
         found.append((lines, max(harmonics, 1), steps))
     steps = max(1, *(needed for *_, needed in found))
     factors = factor + between * np.arange(-steps, steps + 1) / steps
-    standing, height = np.zeros(factors.size), np.zeros(factors.size)
+    stands, height = np.zeros(factors.size), np.zeros(factors.size)
     for lines, harmonics, _ in found:
         nats = harmonic_evidence(lines, known.shaft_hz * factors, known.shaft_hz, 0.0, harmonics)[:, 0]
-        standing += np.minimum(nats, STANDS_OUT).sum(axis=0)
+        stands += standing(nats)
         height += tempered(nats).sum(axis=0)
-    if standing.max() < standing[steps] + MORE_LINES * STANDS_OUT:
+    if stands.max() < stands[steps] + MORE_LINES * STANDS_OUT:
         return factor
-    # Strong lines stand out in some components beside their middle too.
-    return float(factors[np.where(standing > standing.max() - STANDS_OUT, height, 0.0).argmax()])
+    return float(factors[most_standing(stands, height)])
 
 
 def families_term(envelopes: EnvelopeSpectra, known: Kinematics, factors: Array) -> Array:

@@ -56,3 +56,8 @@ def test_a_jump_of_the_bias_is_levelled_first(impulse_train):
 def test_what_has_no_features_is_refused(signal, rate, shaft_hz, message):
     with pytest.raises(ValueError, match=message):
         signal_features(signal, rate, KNOWN.at(shaft_hz))
+
+
+def test_a_signal_that_repeats_itself_has_finite_features():
+    signal = np.tile(np.random.default_rng(0).standard_normal(5000), 4)
+    assert np.isfinite(list(signal_features(signal, RATE, KNOWN).values())).all()

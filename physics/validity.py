@@ -23,7 +23,8 @@ STEEL_DENSITY = 7850.0  # kg/m³, assumed for every rolling element
 NEGLIGIBLE_SHARE = 0.2  # the paper's own fan rig reaches 0.19 over the sharp exit that its response needs
 LIMITING_SPEED_FACTOR = 5e5  # rpm · mm, shaft speed times pitch diameter: usual limit of greased bearings
 SAME_SPEED = 1e-6  # a nominal cage speed rounded to seven digits is still that of pure rolling
-# A path is looked at in so many places; a rough one in at least as many for each of its roughness values.
+# A path is looked at in so many places; a rough one in at least as many for each of its roughness values or points of
+# its table.
 PATH_SAMPLES, SAMPLES_PER_KNOT = 4001, 8
 PEAK_INSTANTS = 256
 
@@ -101,7 +102,7 @@ def _way_from_edges(path: DepthPath, first: float, last: float, sense: float) ->
 
 def _steepest_rough_way(spall: Spall, bearing: Bearing) -> Descent:
     """The way between the two neighbouring turning points whose drop over arc squared is largest."""
-    samples = max(PATH_SAMPLES, SAMPLES_PER_KNOT * len(spall.roughness_values))
+    samples = max(PATH_SAMPLES, SAMPLES_PER_KNOT * max(len(spall.roughness_values), len(spall.table_depth)))
     arc = np.linspace(-spall.extent / 2.0, spall.extent / 2.0, samples)
     depth = build_path(spall, bearing).depth(arc)
     direction = np.sign(np.diff(depth))

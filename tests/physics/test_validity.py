@@ -158,6 +158,16 @@ def measured(extent, angle, depth):
     return Spall("outer", 1, DOWN, extent, 0.0, profile="table", table_angle=angle, table_depth=depth)
 
 
+def test_of_thousands_of_points_of_a_table_no_crest_is_missed(gearbox):
+    waves, amplitude = 3000, 1e-9  # so low that the ball follows them
+    angle = np.linspace(-1.2, 1.2, 4 * waves + 1)
+    rough = measured(2.4, angle, amplitude * (1.0 - np.cos(math.pi / 2.0 * np.arange(angle.size))))
+    scene = scene_of(gearbox, (rough,))
+    half_wave = 2.4 / waves / 2.0 / scene.cage.nominal_speed
+    by_hand = element_mass(gearbox.bearing) * 2 * 2 * amplitude / half_wave**2
+    assert inertia_force(scene, rough) == pytest.approx(by_hand, rel=0.1)  # 32 samples of a wave, give or take 1
+
+
 @pytest.mark.parametrize(
     ("foot", "pit", "end"), [(0.01, 0.0, 0.0), (0.01, 1e-6, 1e-6), (0.0, 40e-6, 0.0)], ids=["flat", "shallow", "deep"]
 )

@@ -87,8 +87,7 @@ def _sways(mean: MeanPass, places: Array) -> dict[str, Array]:
 
 
 def _wave_sign(mean: MeanPass, places: Array) -> Array:
-    centre = np.round(places).astype(np.int64) - mean.offset[0]
-    near = np.clip(centre[:, None] + np.arange(-WAVE, WAVE + 1), 0, mean.waveform.size - 1)
+    near = mean.around(places, WAVE)
     wave, energy = mean.waveform[near], mean.energy[Channel.ALL][near].mean(axis=1)
     extreme = np.take_along_axis(wave, np.abs(wave).argmax(axis=1)[:, None], axis=1)[:, 0]
     return np.asarray(extreme / np.sqrt(energy + ENERGY_FLOOR))

@@ -57,14 +57,10 @@ def _largest_between(mean: MeanPass, start: Array, stop: Array) -> Array:
     return found
 
 
-def _waves(mean: MeanPass, place: Array, reach: int) -> Array:
-    centre = np.round(place).astype(np.int64) - mean.offset[0]
-    return mean.waveform[np.clip(centre[:, None] + np.arange(-reach, reach + 1), 0, mean.waveform.size - 1)]
-
-
 def _alike(mean: MeanPass, entry: Array, leave: Array) -> Array:
     """Largest signed correlation (P,) of the mean waveforms round both places, shifted by at most WAVE_SHIFT."""
-    first, second = _waves(mean, entry, WAVE_REACH), _waves(mean, leave, WAVE_REACH + WAVE_SHIFT)
+    first = mean.waveform[mean.around(entry, WAVE_REACH)]
+    second = mean.waveform[mean.around(leave, WAVE_REACH + WAVE_SHIFT)]
     best = np.zeros(entry.size)
     for shift in range(2 * WAVE_SHIFT + 1):
         part = second[:, shift : shift + 2 * WAVE_REACH + 1]
@@ -76,8 +72,6 @@ def _alike(mean: MeanPass, entry: Array, leave: Array) -> Array:
 
 def _coherence(mean: MeanPass, place: Array) -> Array:
     """Log of the energy of the mean waveform over the mean energy round a place (P,)."""
-    centre = np.round(place).astype(np.int64) - mean.offset[0]
-    reach = np.arange(-COHERENT_REACH, COHERENT_REACH + 1)
-    near = np.clip(centre[:, None] + reach, 0, mean.waveform.size - 1)
+    near = mean.around(place, COHERENT_REACH)
     shared, all_of_it = (mean.waveform[near] ** 2).mean(axis=1), mean.energy[Channel.ALL][near].mean(axis=1)
     return np.log(shared + ENERGY_FLOOR) - np.log(all_of_it + ENERGY_FLOOR)

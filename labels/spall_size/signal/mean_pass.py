@@ -59,6 +59,12 @@ class MeanPass:
     passes: float
     period: float
 
+    def around(self, place: Array, reach: int) -> NDArray[np.int64]:
+        """Numbers (P, 2 reach + 1) of the samples round each `place` (P,), samples from the anchor; those beyond an end
+        are that of the end."""
+        centre = np.round(place).astype(np.int64) - self.offset[0]
+        return np.clip(centre[:, None] + np.arange(-reach, reach + 1), 0, self.offset.size - 1)
+
 
 def mean_pass(signal: Array, whitened: Array, alignment: Alignment, period: float) -> MeanPass:
     """The mean pass of `signal` (T,) and of `whitened` (T,), the same prewhitened; `period` in samples."""

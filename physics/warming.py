@@ -38,7 +38,6 @@ from physics.simulate import simulate
 from physics.spall import Spall
 from physics.statics.ball_load import ball_load
 from physics.statics.load_distribution import require_equilibrium
-from physics.statics.stiffness import stiffness_trace
 from physics.statics.stiffness_series import stiffness_series
 from physics.trace import ACCELERATION_ALONE, ContactChanges, OuterMotion
 
@@ -126,7 +125,6 @@ def _use_kernels_beside_the_march(scene: Scene) -> None:
     stretches_apart(still, 0, 0, 1)
     decimate(mode_accelerations([SensorMode(RATE / 8.0, 0.1)], OuterMotion(RATE, still, still, still)), 2)
     stiffness_series(scene, 1.0 / RATE, SAMPLES)
-    stiffness_trace(scene, time)
     ball_load(scene, time, 1, np.ones(1, np.int16))
     race_depth(scene, 1, time)
     contact_events(_no_changes(scene), 1, np.ones(1, np.int16), time, time)

@@ -5,12 +5,9 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-import numpy as np
-
 from physics.arrays import Array
 from physics.scene import Scene
 from physics.statics.rest_series import TOLERANCE, XX, XY, YY, coarsest_stride, rest_series
-from physics.statics.stiffness import stiffness_trace
 
 # Beside corners, where balls take or lose their load, polynomials miss more than their difference says: up to 14 times
 # as much, over the record, in 80 records of the wide corpus and of both rigs.
@@ -31,11 +28,7 @@ def stiffness_series(scene: Scene, step: float, count: int) -> StiffnessSeries:
 
     Raises SimulationFailed where no position of the shaft carries the load.
     """
-    stride = coarsest_stride(scene, step)
-    if stride == 1:
-        solved = stiffness_trace(scene, np.arange(count, dtype=np.float64) * step, TOLERANCE)
-        return StiffnessSeries(solved, TOLERANCE if solved.any() else 0.0, 1.0)
-    rows, missed, share = rest_series(scene, step, count, stride)
+    rows, missed, share = rest_series(scene, step, count, coarsest_stride(scene, step))
     mean = rows[:count, YY].mean()
     error = math.hypot(ERROR_FACTOR * math.sqrt(missed.max()) / mean, TOLERANCE) if mean > 0.0 else 0.0
     return StiffnessSeries(rows[:count, XX : XY + 1], error, share)

@@ -28,8 +28,7 @@ from physics.outcome import SimulationFailed
 from physics.rms import relative_error, rms
 from physics.scene import Scene
 from physics.simulate import simulate
-from physics.statics.rest_series import TOLERANCE
-from physics.statics.stiffness import stiffness_trace
+from physics.statics.load_distribution import require_equilibrium
 from physics.statics.stiffness_series import stiffness_series
 from physics.trace import Trace
 from physics.warming import warm_up
@@ -121,7 +120,7 @@ def stiffness_error(scene: Scene, rate: float) -> dict[str, float]:
     """RMS error of the worst component of the stiffness over the mean of kyy, and what is said of it."""
     count = round(scene.duration * rate)
     series = stiffness_series(scene, 1.0 / rate, count)
-    solved = stiffness_trace(scene, np.arange(count) / rate, TOLERANCE)
+    solved = require_equilibrium(scene, np.arange(count) / rate).stiffness
     mean = float(solved[:, 1].mean())
     error = max(rms(series.stiffness[:, part] - solved[:, part]) for part in range(3)) / mean if mean > 0.0 else 0.0
     return {"stiffness_error": error, "stiffness_said": series.error}

@@ -20,8 +20,8 @@ from physics.paths.profile import race_depth
 from physics.request import Accurate, FixedSteps, Simpler
 from physics.rms import rms
 from physics.simulate import simulate
-from physics.statics.load_distribution import equilibrium
-from physics.statics.stiffness import stiffness_at, stiffness_trace, symmetric_matrices
+from physics.statics.load_distribution import equilibrium, require_equilibrium
+from physics.statics.stiffness import stiffness_at, symmetric_matrices
 from physics.trace import ACCELERATION_ALONE, KEEPABLE, Kept
 
 RATE = 65536.0
@@ -155,7 +155,7 @@ def test_the_quasi_static_model_has_the_stiffness_and_loads_of_statics_and_no_vi
     assert np.all(trace.acceleration == 0.0)
     displacement = trace.state[:, 0:2] - trace.state[:, 2:4]
     stiffness = stiffness_at(scene, trace.time, displacement)
-    expected = stiffness_trace(scene, trace.time)
+    expected = require_equilibrium(scene, trace.time).stiffness
     assert np.allclose(stiffness, expected, rtol=0.0, atol=1e-9 * expected.max())  # what Newton's method leaves
     vertical = -(trace.contact_force * np.sin(ball_angles(scene, trace.time))).sum(axis=(1, 2))
     assert vertical == pytest.approx(scene.operation.load, rel=1e-6)  # the solver's tolerance

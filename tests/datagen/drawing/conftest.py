@@ -18,7 +18,7 @@ from physics.operation import Operation
 from physics.scene import Scene
 from physics.simulate import simulate
 from physics.spall import Spall
-from physics.statics.stiffness import stiffness_trace
+from physics.statics.load_distribution import require_equilibrium
 
 RATE, DURATION = 32768.0, 0.25
 BOTTOM = math.radians(270.0)
@@ -58,7 +58,7 @@ def made_portrait(name, clean=True, noise=0.05, **changes):
         clean=trace.acceleration if clean else None,
         envelope=band_envelope(measured[:, 1], RATE, band),
         stiffness_time=time,
-        stiffness=stiffness_trace(scene, time).T,
+        stiffness=require_equilibrium(scene, time).stiffness.T,
         passes=ball_passes(scene, trace.changes, DURATION),
     )
     return Portrait(**made | changes)

@@ -14,7 +14,7 @@ from datagen.records.record import make_record
 from datagen.records.stiffness_axis import ACCURACY, interpolation_error, shard_key, stiffness_axis, stiffness_divisor
 from datagen.scenarios.sampling import draw_scenario
 from datagen.scenarios.scenario import Scenario
-from physics.statics.stiffness import stiffness_trace
+from physics.statics.load_distribution import require_equilibrium
 
 SPALL = {"condition": "line", "extent_deg": 2, "depth_um": 12}
 
@@ -30,7 +30,10 @@ def draw(records: int = 1, rate: float = 65536, duration: float = 0.2, **setting
 def measured_error(scenario: Scenario, axis: np.ndarray) -> float:
     """Largest RMS error of interpolating each component from `axis` onto the samples, over the mean of kyy."""
     time = np.arange(scenario.samples) / scenario.rate
-    exact, coarse = stiffness_trace(scenario.scene, time), stiffness_trace(scenario.scene, axis)
+    exact, coarse = (
+        require_equilibrium(scenario.scene, time).stiffness,
+        require_equilibrium(scenario.scene, axis).stiffness,
+    )
     missed = [np.interp(time, axis, coarse[:, k]) - exact[:, k] for k in range(3)]
     return max(float(np.sqrt(np.mean(part**2))) for part in missed) / float(exact[:, 1].mean())
 
@@ -91,11 +94,11 @@ def test_the_divisor_follows_rate_over_speed() -> None:
 def test_the_estimated_error_is_near_the_measured_one_and_zero_where_every_sample_is_solved() -> None:
     (scenario,) = draw(duration=0.5, operation={"speed_of_rated": 0.5})
     axis = stiffness_axis(scenario)
-    estimate = interpolation_error(scenario, stiffness_trace(scenario.scene, axis).T)
+    estimate = interpolation_error(scenario, require_equilibrium(scenario.scene, axis).stiffness.T)
     # the measured error of one record scatters by about a third around its mean over the nodes' phases
     assert estimate == pytest.approx(measured_error(scenario, axis), rel=0.5)
     (spalled,) = draw(defect=SPALL)
-    assert interpolation_error(spalled, stiffness_trace(spalled.scene, stiffness_axis(spalled)).T) == 0.0
+    assert interpolation_error(spalled, require_equilibrium(spalled.scene, stiffness_axis(spalled)).stiffness.T) == 0.0
 
 
 def test_a_shard_holds_records_of_one_rate_duration_bearing_size_and_axis() -> None:
@@ -128,7 +131,7 @@ def test_a_load_that_all_but_vanishes_on_its_way_round_keeps_the_accuracy(loads:
     axis = stiffness_axis(scenario)
     measured = measured_error(scenario, axis)
     assert measured <= ACCURACY
-    stated = interpolation_error(scenario, stiffness_trace(scenario.scene, axis).T)
+    stated = interpolation_error(scenario, require_equilibrium(scenario.scene, axis).stiffness.T)
     # No less than it is, but for some scatter; twice as much where not corners but a fast turn of the load is missed.
     assert 0.95 * measured <= stated <= 2.0 * measured
 

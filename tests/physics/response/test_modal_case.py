@@ -11,8 +11,7 @@ from physics.imperfections import Imperfections, Waviness
 from physics.outcome import Outcome, SimulationFailed
 from physics.response.goal import rms_distance, steady
 from physics.response.modal_case import March, case_of
-from physics.statics.load_distribution import resting
-from physics.statics.stiffness import stiffness_trace
+from physics.statics.load_distribution import require_equilibrium, resting
 
 RATE, SAMPLES, SIZE = 65536.0, 400, 0.01
 
@@ -44,7 +43,7 @@ def test_no_period_of_the_stiffness_hides_between_the_resting_positions(referenc
     scene = reference_scene("G1", 1.0)
     cage = CagePath(scene.cage.nominal_speed, periods * scene.rig.bearing.spacing / scene.cage.nominal_speed, 0.1)
     swing = resting(replace(scene, cage=cage)).stiffness[:, 1]
-    long = stiffness_trace(replace(scene, cage=cage), np.linspace(0.0, cage.duration, 5001))[:, 1]
+    long = require_equilibrium(replace(scene, cage=cage), np.linspace(0.0, cage.duration, 5001)).stiffness[:, 1]
     assert swing.std() == pytest.approx(long.std(), rel=0.3)
     assert swing.mean() == pytest.approx(long.mean(), rel=0.01)
 

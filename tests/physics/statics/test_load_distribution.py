@@ -22,7 +22,6 @@ from physics.statics.load_distribution import (
     require_equilibrium,
 )
 from physics.statics.rest import NO_EQUILIBRIUM
-from physics.statics.stiffness import stiffness_trace
 from physics.statics.stiffness_series import stiffness_series
 
 
@@ -221,7 +220,6 @@ def test_the_damping_is_that_of_the_loaded_balls(gearbox, build_scene):
 
 
 QUASI_STATIC = {
-    "trace": stiffness_trace,
     "series": lambda scene, time: stiffness_series(scene, time[1], time.size),
     "load of a ball": lambda scene, time: ball_load(scene, time, 1, np.ones(time.size, dtype=np.int64)),
     "equilibrium": require_equilibrium,

@@ -8,8 +8,8 @@ import pytest
 
 from physics.imperfections import Imperfections, Waviness
 from physics.spall import Spall
-from physics.statics.load_distribution import equilibrium
-from physics.statics.stiffness import stiffness_trace, symmetric_matrices
+from physics.statics.load_distribution import equilibrium, require_equilibrium
+from physics.statics.stiffness import symmetric_matrices
 from physics.words import STIFFNESS_COMPONENTS
 
 BOTTOM = math.radians(270.0)
@@ -21,14 +21,16 @@ FIRST_TOUCH = 100.0  # N/m: 1.5 K √δ of a ball at first touch, where δ is kn
 
 
 def at_cage_angle(build_scene, rig, degrees, *spalls, **changes):
-    return stiffness_trace(build_scene(rig, *spalls, start_angle=math.radians(degrees), **changes), START)[0]
+    return require_equilibrium(
+        build_scene(rig, *spalls, start_angle=math.radians(degrees), **changes), START
+    ).stiffness[0]
 
 
 def over_cage_angles(build_scene, rig, *spalls, spacings, **changes):
     """Stiffness (481, 3) while the cage turns by `spacings` ball spacings."""
     scene = build_scene(rig, *spalls, **changes)
     turn = spacings * scene.rig.bearing.spacing
-    return stiffness_trace(scene, np.linspace(0.0, turn / scene.cage.nominal_speed, 481))
+    return require_equilibrium(scene, np.linspace(0.0, turn / scene.cage.nominal_speed, 481)).stiffness
 
 
 @pytest.mark.parametrize(("degrees", "label"), [(0.0, "0"), (7.5, "7_5_deg")])
@@ -57,7 +59,7 @@ SCENES = {
 def test_stiffness_times_the_shift_is_the_change_of_load(gearbox, build_scene, variant, spalls):
     changed = SCENES[variant]
     scene = build_scene(gearbox, *spalls, start_angle=0.05, **changed)
-    stiffness = symmetric_matrices(stiffness_trace(scene, START)[0])
+    stiffness = symmetric_matrices(require_equilibrium(scene, START).stiffness[0])
     little = 1e-3
     for phase in (0.0, math.pi / 2.0, 2.0):
         extra = {"unbalance_force": little, "unbalance_phase": phase}
@@ -116,7 +118,7 @@ def test_a_line_spall_changes_the_stiffness_only_while_a_ball_is_in_it(gearbox, 
     angle = np.linspace(0.0, scene.rig.bearing.spacing, 301)
     time = angle / scene.cage.nominal_speed
     healthy, line, extended = (
-        stiffness_trace(build_scene(gearbox, *spalls), time) for spalls in ((), (LINE,), (EXTENDED,))
+        require_equilibrium(build_scene(gearbox, *spalls), time).stiffness for spalls in ((), (LINE,), (EXTENDED,))
     )
     arc = np.remainder(angle + scene.rig.bearing.spacing / 2, scene.rig.bearing.spacing) - scene.rig.bearing.spacing / 2
     outside = np.abs(arc) > LINE.extent / 2
@@ -136,14 +138,16 @@ def test_the_cross_coupling_is_one_or_two_orders_smaller_and_larger_for_the_exte
 
 
 def test_without_load_there_is_no_stiffness(fan, build_scene):
-    assert np.array_equal(stiffness_trace(build_scene(fan, operation={"load": 0.0}), START), np.zeros((1, 3)))
+    assert np.array_equal(
+        require_equilibrium(build_scene(fan, operation={"load": 0.0}), START).stiffness, np.zeros((1, 3))
+    )
 
 
 def test_the_trace_is_taken_at_each_instant_s_own_load_and_spall_angle(gearbox, build_scene):
     inner = dataclasses.replace(EXTENDED, race="inner")
     scene = build_scene(gearbox, inner, operation={"load_fluctuation": 0.5, "unbalance_force": 20.0})
     time = np.array([0.0, 0.02, 0.05])
-    for k, trace in enumerate(stiffness_trace(scene, time)):
+    for k, trace in enumerate(require_equilibrium(scene, time).stiffness):
         turn = 2 * math.pi * 7.0 * time[k]
         frozen = build_scene(
             gearbox,
@@ -151,7 +155,9 @@ def test_the_trace_is_taken_at_each_instant_s_own_load_and_spall_angle(gearbox, 
             start_angle=scene.cage.nominal_speed * time[k],
             operation={"load": 346.0 * (1 + 0.5 * math.cos(turn)), "unbalance_force": 20.0, "unbalance_phase": turn},
         )
-        assert trace == pytest.approx(stiffness_trace(frozen, START)[0], rel=1e-8, abs=1.0)  # the solver's tolerance
+        assert trace == pytest.approx(
+            require_equilibrium(frozen, START).stiffness[0], rel=1e-8, abs=1.0
+        )  # the solver's tolerance
 
 
 def test_matrices_are_symmetric_and_hold_the_components_in_their_order():

@@ -17,6 +17,8 @@ from datagen.drawing.style import (
     PURPLE,
     VERMILLION,
     faint_grid,
+    plain_log_ticks,
+    spans_decades,
     whole_numbers,
 )
 from labels.schema import LOCATIONS
@@ -170,6 +172,10 @@ def draw_against(axes: Axes, tables: Mapping[str, list[dict[str, float]]], quant
     for place, (name, table) in enumerate(tables.items()):
         size = 3.0 + 1.5 * (len(tables) - 1 - place)  # what lies below another still shows
         _draw_band(axes, [point["at"] for point in table], table, "accuracy", colour(place), name, size)
+    places = [point["at"] for table in tables.values() for point in table]
+    if quantity != "snr_db" and spans_decades(min(places), max(places)):  # decibels are logarithms already
+        axes.set_xscale("log")
+        plain_log_ticks(axes.xaxis)
     word, label = AGAINST[quantity]
     axes.set(xlabel=label, ylabel="share of faults called right", ylim=SCORE_ENDS)
     axes.set_title(f"faults, by {word}")

@@ -22,6 +22,7 @@ from datagen.drawing.style import (
     outside_legend,
     plain_log_ticks,
     png_of,
+    spans_decades,
     whole_numbers,
     with_panels,
 )
@@ -41,7 +42,6 @@ SHOWN_IN = {"depth": (1e6, "µm")}
 BINS, FEW = 24, 8
 DIGITS, MOST_DECIMALS = 10, 12
 MOST_STEPS = 5  # between ticks: numbers as long as −0.0025 have room
-LOGARITHMIC_FROM = 20.0
 
 
 def overview_png(labels: pandas.DataFrame, name: str) -> bytes:
@@ -123,8 +123,8 @@ def draw_distribution(axes: Axes, labels: pandas.DataFrame, column: str) -> None
     if distinct.size <= FEW:
         _draw_bars(axes, stacked, distinct, colours)
     else:
-        logarithmic = distinct.min() > 0.0 and distinct.max() / distinct.min() > LOGARITHMIC_FROM
         ends = (distinct.min(), distinct.max())
+        logarithmic = spans_decades(*ends)
         edges = (np.geomspace if logarithmic else np.linspace)(*ends, BINS + 1).tolist()
         axes.hist([values for _, values in stacked], edges, stacked=True, color=colours, label=names)
         if logarithmic:

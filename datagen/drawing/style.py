@@ -25,6 +25,8 @@ MAP = "magma"
 # Ends of a logarithmic axis that is given plain numbers, and its highest over its lowest value, below which ticks stand
 # at equal distances, and below which also at 2 and 5 of each decade.
 PLAIN = (1e-3, 99999.0)
+# Largest over smallest value of a quantity above which it is drawn over a logarithmic axis.
+LOGARITHMIC_FROM = 20.0
 LINEAR_BELOW, FINE_BELOW = 8.0, 300.0
 
 SETTINGS: dict[Any, Any] = {
@@ -107,6 +109,11 @@ def same_height(panels: Sequence[Axes]) -> None:
 def whole_numbers(axis: Axis) -> None:
     """Ticks of a linear axis that counts something: whole numbers only."""
     axis.set_major_locator(MaxNLocator("auto", integer=True, min_n_ticks=1, steps=[1, 2, 5, 10]))
+
+
+def spans_decades(smallest: float, largest: float) -> bool:
+    """True for a range that a linear axis would show most of in a corner."""
+    return smallest > 0.0 and largest / smallest > LOGARITHMIC_FROM
 
 
 def plain_log_ticks(axis: Axis) -> None:

@@ -8,7 +8,7 @@ import pytest
 from datagen.benchmark.model_scores import Calibration, Confusion
 from datagen.benchmark.options import Options
 from datagen.benchmark.results import CorpusResults, CorpusScores, NoisyScores, Results
-from datagen.drawing.classifier_panels import draw_confusion, draw_curve, draw_noise, draw_scores
+from datagen.drawing.classifier_panels import draw_against, draw_confusion, draw_curve, draw_noise, draw_scores
 from datagen.drawing.classifier_sheet import columns, draw_results, scores_png
 from datagen.drawing.style import INK, house_style, with_panels
 from labels.interval import Interval
@@ -141,6 +141,22 @@ def test_only_what_says_something_has_a_panel(results_of):
     lone = {"rule": replace(test.scores.models["rule"], accuracy_against={"speed_rpm": [point(900)]})}
     quiet = replace(quiet, tests=[replace(test, scores=replace(test.scores, models=lone))])
     assert shown(drawn(quiet)) == ["scores", "importances, forest"]
+
+
+@pytest.mark.parametrize(
+    ("quantity", "places", "scale"),
+    [
+        ("extent_mm", (0.4, 22.0), "log"),
+        ("extent_mm", (4.0, 22.0), "linear"),
+        ("extent_mm", (0.0, 22.0), "linear"),
+        ("snr_db", (0.4, 22.0), "linear"),
+    ],
+)
+def test_sizes_of_several_decades_have_a_logarithmic_axis(quantity, places, scale):
+    with house_style():
+        _, axes = with_panels(figsize=(4.0, 3.0))
+        draw_against(axes, {"rule": [point(at) for at in places]}, quantity)
+    assert axes.get_xscale() == scale
 
 
 def test_scores_with_noise_added_are_drawn_over_its_level(results_of):

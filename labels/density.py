@@ -7,6 +7,7 @@ import math
 import numpy as np
 from scipy import fft
 
+from labels.window import periodic_hann
 from physics.arrays import Array
 
 
@@ -25,7 +26,7 @@ def power_density(signal: Array, rate: float, resolution: float) -> tuple[Array,
         raise ValueError(
             f"a resolution of {resolution:g} Hz needs {size} samples (2 or more); there are {centred.size}"
         )
-    window = 1.0 - np.cos(2.0 * np.pi * np.arange(size) / size)
+    window = periodic_hann(size)
     count = math.ceil((centred.size - size) / (size / 2.0)) + 1
     starts = np.round(np.linspace(0.0, centred.size - size, count)).astype(int)
     power = np.mean([np.abs(fft.rfft(centred[first : first + size] * window)) ** 2 for first in starts], axis=0)

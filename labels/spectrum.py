@@ -7,6 +7,7 @@ import math
 import numpy as np
 from scipy import fft
 
+from labels.window import periodic_hann
 from physics.arrays import Array
 
 WINDOWS = ("hann", "none")
@@ -27,7 +28,7 @@ def amplitude_spectrum(signal: Array, rate: float, window: str = "hann") -> tupl
         )
     centred = signal - signal.mean()
     if window == "hann":
-        centred = centred * (1.0 - np.cos(2.0 * np.pi * np.arange(signal.size) / signal.size))
+        centred = centred * periodic_hann(signal.size)
     coefficients = fft.rfft(centred) * (2.0 / signal.size)
     # A component without a mirror image is not halved between two of them.
     coefficients[0] /= 2.0

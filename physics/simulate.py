@@ -145,15 +145,15 @@ def _respond_by_steps(scene: Scene, rate: float, solution: FixedSteps | HalvedSt
     samples = scene.samples(rate)
     rest, factor = resting(scene), oversampling(scene, rate, keep.fastest_path)
     longer, marched = _looking_ahead(scene, rate, factor)
-    raised = (rate * factor, marched)
+    accuracy = solution.accuracy if isinstance(solution, HalvedSteps) else math.inf
+    asked = Asked(longer, rest, rate * factor, marched, accuracy)
     if isinstance(solution, Reference):
         start = starting_state(motion_model(scene), rest.displacement[0])
-        trace = respond_by_reference(longer, start, *raised, keep_state=keep.state)
+        trace = respond_by_reference(longer, start, asked.rate, marched, keep_state=keep.state)
     elif isinstance(solution, HalvedSteps):
-        trace = respond_by_fixed_steps(longer, rest, *raised, solution.method, None, solution.accuracy, keep)
+        trace = respond_by_fixed_steps(asked, solution.method, None, True, keep)
     else:
-        accuracy = math.inf if solution.estimate_error else None
-        trace = respond_by_fixed_steps(longer, rest, *raised, solution.method, solution.substeps, accuracy, keep)
+        trace = respond_by_fixed_steps(asked, solution.method, solution.substeps, solution.estimate_error, keep)
     return _lowered(trace, rate, factor, samples)
 
 

@@ -14,6 +14,7 @@ from datagen.paper.panels import heading, letter
 from datagen.paper.scenes import ANALYSED, RATE, bpfo_hz, machine, scene, signal
 from labels.band import Band
 from labels.envelope import band_envelope, squared_envelope_spectrum
+from labels.window import periodic_hann
 from physics.arrays import Array
 from physics.modes import coupled_resonator_frequency, rated_matrices
 from physics.reference_scenes import gradual_line_spall
@@ -59,8 +60,7 @@ def wide_band(rig: str) -> Band:
 def lines_at(squared_envelope: Array, frequencies: Array) -> Array:
     """Amplitudes (N,) at exact frequencies (Hz) of a signal (T,) under a Hann window, the unit of the signal."""
     time = np.arange(squared_envelope.size) / RATE
-    window = 1.0 - np.cos(2.0 * np.pi * np.arange(time.size) / time.size)
-    centred = (squared_envelope - squared_envelope.mean()) * window
+    centred = (squared_envelope - squared_envelope.mean()) * periodic_hann(time.size)
     turning = (np.exp(-2j * np.pi * frequency * time) for frequency in frequencies)
     return np.array([2.0 * abs(np.dot(centred, turn)) / time.size for turn in turning])
 

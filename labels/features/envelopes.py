@@ -5,13 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import fft
 
 from labels.band_tree import band_edges
 from labels.features.conditioning import Conditioned, over_floor
 from labels.features.known_lines import mains_components
 from labels.features.turning import Spectrum, Turning
+from labels.window import periodic_hann
 from physics.arrays import Array
 
 ENVELOPE_HARMONICS = 4.0
@@ -76,8 +76,7 @@ def _squared_envelope(inside: Spectrum, count: int, record: Conditioned) -> tupl
     course = square - mean
     if record.turning is not None:
         course = _at_even_angles(course, count, record.step, record.turning)
-    window: NDArray[np.float64] = 1.0 - np.cos(2.0 * np.pi * np.arange(course.size) / course.size)
-    lines = np.asarray(fft.rfft(course * window))[:count] * (2.0 / course.size)
+    lines = np.asarray(fft.rfft(course * periodic_hann(course.size)))[:count] * (2.0 / course.size)
     return np.abs(lines) ** 2, max(mean, float(np.finfo(np.float64).tiny)), kurtosis
 
 

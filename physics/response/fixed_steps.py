@@ -10,11 +10,11 @@ from physics.integrators.output import Grid
 from physics.integrators.propagator import fast_periods
 from physics.motion import motion_model, starting_state
 from physics.outcome import Outcome, SimulationFailed
+from physics.response.asked import Asked
 from physics.response.single_march import respond
 from physics.response.stability import require_stable, stable_substeps
 from physics.rms import relative_error
 from physics.scene import Scene
-from physics.statics.load_distribution import Equilibrium
 from physics.trace import Kept, Trace
 
 STEPS_PER_FAST_PERIOD = 6.2
@@ -31,33 +31,25 @@ ORDER = 2.0
 ROUNDING = 1e-9  # of a floor that two tapers leave nothing of
 
 
-def respond_by_fixed_steps(
-    scene: Scene,
-    rest: Equilibrium,
-    rate: float,
-    samples: int,
-    method: str,
-    substeps: int | None,
-    accuracy: float | None,
-    keep: Kept,
-) -> Trace:
-    """Trace of `scene` at k / rate from the first of the positions `rest` by `substeps` steps a sample of `method`.
+def respond_by_fixed_steps(asked: Asked, method: str, substeps: int | None, judged: bool, keep: Kept) -> Trace:
+    """What is asked for by `substeps` steps a sample of `method`, whatever its `least_error`.
 
-    None stands for the fewest that are stable in all of these positions and resolve the fastest mode. They are doubled
-    until the response keeps the `accuracy`, which may be infinite, by what one of half the step makes of it, or of an
-    even shorter one where `steps_over_spalls` asks for that, or one by another method where these are too many. Without
-    an accuracy there is no second response, and no estimate of the error. Raises SimulationFailed for steps that are
+    None stands for the fewest that are stable in all positions and resolve the fastest mode. If the response is to be
+    `judged`, they are doubled until it keeps the accuracy, which may be infinite, by what one of half the step makes of
+    it, or of an even shorter one where `steps_over_spalls` asks for that, or one by another method where these are too
+    many. If not, there is no second response, and no estimate of the error. Raises SimulationFailed for steps that are
     not stable, and where MOST_SUBSTEPS do not keep the accuracy.
     """
-    start = starting_state(motion_model(scene), rest.displacement[0])
-    least = stable_substeps(scene, METHODS[method], rest, rate)
+    scene, rate, accuracy = asked.scene, asked.rate, asked.accuracy
+    start = starting_state(motion_model(scene), asked.rest.displacement[0])
+    least = stable_substeps(scene, METHODS[method], asked.rest, rate)
     steps = substeps or max(default_substeps(scene, rate), least)
     require_stable(METHODS[method], rate, steps, least)
 
     def response(steps: int, by: str = method) -> Trace:
-        return respond(scene, start, Grid(samples, steps, 1.0 / (rate * steps)), by, keep)
+        return respond(scene, start, Grid(asked.samples, steps, 1.0 / (rate * steps)), by, keep)
 
-    if accuracy is None:
+    if not judged:
         return response(steps)
     most = max(MOST_SUBSTEPS, steps)
     needed = 1 if METHODS[method].controls_step else steps_over_spalls(scene, rate)

@@ -114,5 +114,5 @@ def _without_sidecar(folder: Path, finished: set[Path]) -> Findings:
 def _not_listed(unlisted: frozenset[str]) -> Findings:
     if not unlisted:
         return Findings()
-    more = f" and {len(unlisted) - 1} more finished shards are" if len(unlisted) > 1 else " is"
+    more = f" and {len(unlisted) - 1} more are" if len(unlisted) > 1 else " is"
     return of_file("manifest.json", [f"{min(unlisted)}{more} not listed"], unfinished=True)

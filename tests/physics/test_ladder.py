@@ -450,3 +450,57 @@ def test_the_ball_at_an_edge_stands_at_the_spall_in_either_row(row, reference_sc
     away = np.angle(np.exp(1j * (edges.angle - spall.angle)))
     assert edges.time.size > 5
     assert np.abs(away).max() < spall.extent < scene.rig.bearing.stagger / 2.0
+
+
+def test_edges_of_several_spalls_are_those_of_each_in_the_order_of_time(reference_scene):
+    scene = reference_scene("F1", 0.2)
+    one = scene.spalls[0]
+    other = dataclasses.replace(one, angle=one.angle + 0.4, depth=0.5 * one.depth)
+    both, *each = (edges_of(dataclasses.replace(scene, spalls=spalls)) for spalls in ((one, other), (one,), (other,)))
+    time, change = (np.concatenate([getattr(edges, name) for edges in each]) for name in ("time", "change"))
+    order = np.argsort(time)
+    assert not np.allclose(each[0].time[:4], each[1].time[:4], rtol=0.0, atol=1e-3)
+    np.testing.assert_array_equal(both.time, time[order])
+    np.testing.assert_array_equal(both.change, change[order])
+
+
+def test_an_edge_takes_off_the_load_of_a_roller_by_its_own_law(reference_scene):
+    scene = reference_scene("G1s", 0.05)
+    bearing = dataclasses.replace(scene.rig.bearing, exponent=10.0 / 9.0, load_deflection=1e8)
+    deep = dataclasses.replace(scene.spalls[0], depth=1e-4, entry_taper=0.0, exit_taper=0.0)
+    scene = dataclasses.replace(scene, rig=dataclasses.replace(scene.rig, bearing=bearing), spalls=(deep,))
+    edges = edges_of(scene)
+    carried = equilibrium(dataclasses.replace(scene, spalls=()), edges.time).ball_load
+    carried = carried[np.arange(edges.time.size), edges.row - 1, edges.ball - 1]
+    assert edges.unloads.any()
+    assert np.abs(edges.change[edges.unloads]) == pytest.approx(carried[edges.unloads], rel=1e-9)
+
+
+def test_imperfections_of_balls_are_no_part_of_the_impulse_train(reference_scene):
+    scene = reference_scene("G1", 0.05)
+    unequal = Imperfections(ball_deviation=((1e-6, *(0.0,) * 11), (0.0,) * 12))
+    sound, uneven = (
+        impulse_response(each, RATE) for each in (scene, dataclasses.replace(scene, imperfections=unequal))
+    )
+    np.testing.assert_array_equal(uneven.acceleration, sound.acceleration)
+    assert sound.acceleration.any()
+
+
+def test_quasi_static_positions_are_the_same_whether_forces_are_kept_too_or_not(reference_scene):
+    scene, model = reference_scene("G1", 0.05), Simpler("quasi-static")
+    alone, both = (simulate(scene, RATE, model, keep=Kept(state=True, force=force)) for force in (False, True))
+    np.testing.assert_array_equal(alone.state, both.state)
+
+
+def test_no_change_of_contact_lies_before_the_record(reference_scene):
+    scene = over_long_tapers(reference_scene("G1", 0.2))
+    edges = edges_of(scene)
+    k = np.flatnonzero(edges.unloads & (edges.change > 0.0))[1]
+    # A ball is touched again half a ramp before the middle of the step of its force: here the record begins between.
+    begins = edges.time[k] - 0.25 * edges.ramp[k]
+    cage = dataclasses.replace(
+        scene.cage, start_angle=float(scene.cage.angle(begins)), duration=float(scene.duration - begins)
+    )
+    later = dataclasses.replace(scene, cage=cage)
+    assert edges_of(later).time[0] == pytest.approx(0.25 * edges.ramp[k], abs=1e-9)
+    assert impulse_response(later, RATE).changes.time.min() >= 0.0

@@ -19,9 +19,10 @@ from datagen.files.atomic import locked, write_atomically
 from datagen.files.digest import file_hash
 from datagen.files.netcdf import netcdf_bytes
 from datagen.inspection.check import check_corpus
-from datagen.recipes.recipe import Recipe, parse_recipe
+from datagen.recipes.recipe import Recipe, load_recipe, parse_recipe
 from datagen.runs.generate import generate
 from datagen.runs.workers import Engine
+from physics.outcome import Outcome, SimulationFailed
 
 Change = Callable[[xarray.Dataset], xarray.Dataset]
 
@@ -292,7 +293,7 @@ def test_a_corpus_whose_run_was_killed_is_not_complete_and_generating_again_fini
     code, _, message = run("check", copy)
     assert code == 1
     others = len(shards) - 3  # than the first, shards 4 and 5
-    assert f"manifest.json: shards/shard_000000.nc and {others} more finished shards are not listed\n" in message
+    assert f"manifest.json: shards/shard_000000.nc and {others} more are not listed\n" in message
     lost, first = shards[4].records + shards[5].records, min(shards[4].first, shards[5].first)
     assert f"{lost} of 14 records asked for are missing, the first {first}\n" in message
     assert "disagree" not in message
@@ -318,3 +319,95 @@ def test_a_run_that_was_stopped_in_good_order_says_how_to_go_on(tiny: Recipe, tm
     verdict = check_corpus(tmp_path / "out")
     assert verdict.problems == ("2 of 4 records asked for are missing, the first 2",)
     assert verdict.remedy.startswith("it is not complete: to go on where its run stopped, run `spallgen generate`")
+
+
+def test_an_index_that_is_none_is_written_anew_by_another_run(copy: Path) -> None:
+    (copy / "index.csv").write_text("hello\n")
+    verdict = check_corpus(copy)
+    assert len(verdict.problems) == 1
+    assert "not the index of a corpus" in verdict.problems[0]
+    assert verdict.remedy.startswith("to mend it, run `spallgen generate` again")
+
+
+@pytest.mark.parametrize(
+    ("count", "told"), [(1, "shards/shard_000000.nc is"), (2, "shards/shard_000000.nc and 1 more are")]
+)
+def test_finished_shards_that_the_manifest_does_not_list_are_told_and_listed_by_another_run(
+    count: int, told: str, copy: Path
+) -> None:
+    manifest = json.loads((copy / "manifest.json").read_text())
+    listed = sorted(manifest["shards"], key=lambda entry: entry["file"])[count:]
+    (copy / "manifest.json").write_text(json.dumps(manifest | {"shards": listed}))
+    verdict = check_corpus(copy)
+    assert verdict.problems == (f"manifest.json: {told} not listed",)
+    assert verdict.remedy.startswith("to mend it, run `spallgen generate` again")
+
+
+def test_a_signal_that_the_recipe_stores_of_every_record_is_found_missing(
+    copy: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("datagen.runs.plan.signals_of_every_record", lambda recipe: ("acceleration", "background"))
+    problem = "shards/shard_000000.nc: background is missing, but the recipe asks for it"
+    assert problem in check_corpus(copy).problems
+
+
+def test_what_another_version_drew_is_not_held_against_this_ones_drawing(copy: Path) -> None:
+    def rewrite(dataset: xarray.Dataset) -> xarray.Dataset:
+        texts = dataset["scenario"].values.astype(object)
+        texts[0] = texts[0].replace('"W":346.0', '"W":346.5')
+        return dataset.assign(scenario=("record", texts.astype(np.str_), dataset["scenario"].attrs))
+
+    forge(copy, 0, rewrite)
+    assert "another scenario" in only_problem(copy)
+    for path in (copy / "manifest.json", *(copy / "shards").glob("*.json")):
+        content = json.loads(path.read_text())
+        content["identity"]["program_hash"] = "0" * 16
+        path.write_text(json.dumps(content))
+    assert check_corpus(copy).sound
+
+
+@pytest.mark.parametrize(
+    "problem", [BadInput("the recording is not at hand"), SimulationFailed(Outcome.NO_START, "no position carries it")]
+)
+def test_a_record_that_cannot_be_made_again_is_a_problem_and_not_the_end(
+    problem: Exception, tiny_corpus: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refused(*_: object) -> None:
+        raise problem
+
+    monkeypatch.setattr("datagen.records.record.make_record", refused)
+    verdict = check_corpus(tiny_corpus, remake=2)
+    assert verdict.problems == tuple(
+        f"record {record} cannot be simulated again from its scenario: {problem}" for record in (0, 13)
+    )
+    assert (verdict.remade, verdict.largest_difference) == ((), 0.0)
+
+
+@pytest.mark.parametrize(("factor", "found"), [(1.0008, 0), (1.0015, 1)])
+def test_a_record_made_again_may_differ_by_a_thousandth_of_its_rms(factor: float, found: int, copy: Path) -> None:
+    def amplify(dataset: xarray.Dataset) -> xarray.Dataset:
+        attributes = dataset["acceleration"].attrs
+        return dataset.assign(acceleration=(dataset["acceleration"] * np.float32(factor)).assign_attrs(attributes))
+
+    forge(copy, 0, amplify)
+    assert len(check_corpus(copy, remake=1).problems) == found
+
+
+def test_a_path_that_this_locale_cannot_encode_is_told_with_what_to_do(
+    copy: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def unencodable(*_: object, **__: object) -> None:
+        "ä".encode("ascii")
+
+    monkeypatch.setattr("xarray.open_dataset", unencodable)
+    with pytest.raises(BadInput, match="lacks letters of this path"):
+        check_corpus(copy)
+
+
+@pytest.mark.usefixtures("record_3_fails")
+def test_a_shard_all_of_whose_records_failed_is_no_file_that_is_missing(tiny_recipe: Path, tmp_path: Path) -> None:
+    alone = tmp_path / "alone.toml"
+    alone.write_text(tiny_recipe.read_text().replace("records_per_shard = 2", "records_per_shard = 1"))
+    assert not generate(load_recipe(alone), tmp_path / "out", limit=4, engine=Engine(workers=1)).complete
+    assert len(list((tmp_path / "out" / "shards").glob("*.nc"))) == 3
+    assert only_problem(tmp_path / "out") == "1 record could not be made; failed.jsonl says why"

@@ -191,3 +191,11 @@ def test_rows_of_one_record_make_no_interval_narrower():
     (ten,) = accuracy_against(np.repeat(value, 10), np.repeat(right, 10), bins=1, groups=groups)
     assert (ten["records"], ten["accuracy"]) == (200, one["accuracy"])
     assert (ten["low"], ten["high"]) == pytest.approx((one["low"], one["high"]))
+
+
+def test_the_area_under_the_roc_has_an_interval_from_five_a_side_on():
+    positive = np.array([True] * 30 + [False] * 5)
+    score = np.random.default_rng(0).standard_normal(35) + positive
+    found = area_interval(positive, score)
+    assert 0.0 < found.low < found.value < found.high <= 1.0
+    assert math.isfinite(area_interval(~positive, -score).low)

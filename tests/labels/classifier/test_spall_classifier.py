@@ -232,3 +232,10 @@ def test_noise_blurs_no_answer_of_the_three():
         sure.append([np.abs(logit(part)).mean() for part in parts])
     # Calibrated on rows of noise too, in which nothing is seen, each would be far too careful.
     assert np.all(np.array(sure[0]) > 1.5 * np.array(sure[1]))
+
+
+def test_two_bearings_of_each_answer_are_enough():
+    table, classes, _ = made_up(100, 1)
+    faulty = classes != "healthy"
+    stage = Stage(learner("logistic")).fit(table, faulty, 2 * faulty + np.arange(100) // 5 % 2)
+    assert np.mean((stage.held_out > 0.5) == faulty) > 0.7

@@ -76,3 +76,11 @@ def test_rows_of_records_that_are_not_asked_for_are_left_out():
 def test_of_axes_with_unlike_numbers_of_windows_the_higher_mean_counts_twice():
     shares = vote_shares(np.array([0.6, 0.6, 1.0]), np.array([4, 4, 4]), np.array([0, 0, 1]))
     assert shares == pytest.approx([1 / 6, 1 / 6, 2 / 3])
+
+
+def test_of_few_records_the_highest_alone_says_by_how_much_votes_are_raised():
+    # The plain means of four records are 0, 1, 2 and 3; the higher axis draws each vote a third of 3, 6, 9 and 12 up.
+    means, apart = np.arange(4.0), np.array([3.0, 6.0, 9.0, 12.0])
+    level = np.concatenate([means + apart, means - apart])[:, None]
+    owner, axis = np.tile(np.arange(4), 2), np.repeat([0, 1], 4)
+    assert raised(level, owner, axis) == pytest.approx(4.0)

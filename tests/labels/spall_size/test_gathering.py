@@ -354,3 +354,9 @@ def test_the_energy_of_white_noise_is_as_peaked_as_its_median_says_whatever_its_
     assert peakedness(energy) == pytest.approx(-2.0 * math.log(0.6745), abs=0.02)
     energy[::100] *= 1e4
     assert peakedness(energy) == pytest.approx(math.log(100.0) - 2.0 * math.log(0.6745), abs=0.1)
+
+
+def test_a_single_candidate_is_no_evidence(pulse_train, monkeypatch):
+    train = pulse_train(150.0 / RATE, 0.011)
+    monkeypatch.setattr("labels.spall_size.estimation.gathering.candidate_places", lambda mean: np.array([3.0]))
+    assert gather_evidence(train.signal, RATE, {"outer": 0.011}) is None

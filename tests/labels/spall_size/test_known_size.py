@@ -1,5 +1,7 @@
 """A known size on the same machine moves other sizes a little towards it, and never far."""
 
+import math
+
 import pytest
 
 from labels.spall_size.known_size import corrected, known_size_factor
@@ -27,3 +29,10 @@ def test_a_correction_scales_every_extent_and_leaves_the_lag():
     assert made.extent_mm_interval == pytest.approx((1.76, 2.64))
     assert made.candidates == pytest.approx((0.11, 0.66))
     assert (made.lag, made.lag_interval) == (estimate.lag, estimate.lag_interval)
+
+
+@pytest.mark.parametrize(
+    ("known", "counted"), [(1.04, 1.04), (1.0 / 1.04, 1.0 / 1.04), (1.5, math.exp(0.05)), (1.0 / 1.5, math.exp(-0.05))]
+)
+def test_a_twentieth_of_the_error_is_taken_for_the_machines_and_of_five_per_cent_at_most(known, counted):
+    assert known_size_factor(1.0, known) == pytest.approx(counted**0.05, rel=1e-12)

@@ -88,3 +88,18 @@ def test_less_than_six_passes_are_too_few(passes, outcome, pulse_train):
 def test_a_rate_that_is_none_is_refused(rate):
     with pytest.raises(InvalidParameter, match="rate"):
         EnvelopeLagRule().estimate(np.random.default_rng(0).standard_normal(1000), rate, GEARBOX)
+
+
+@pytest.mark.parametrize(("share", "found"), [(0.94, True), (0.96, False)])
+def test_lags_are_looked_for_up_to_95_hundredths_of_a_pass(share, found):
+    # Two bursts a single lag apart: there is no other peak of the autocorrelation.
+    period = 2000.0
+    rate = period / GEARBOX.pass_periods()["outer"]
+    time, lag = np.arange(16_000.0), share * period
+    bursts = sum(np.exp(-(((time - place) / 150.0) ** 2)) for place in (7000.0, 7000.0 + lag))
+    estimate = EnvelopeLagRule().estimate(np.cos(1.3 * time) * bursts, rate, GEARBOX)
+    if found:
+        assert estimate.lag / estimate.pass_period == pytest.approx(share, rel=1e-3)
+    else:
+        assert estimate.outcome is SizeOutcome.NO_EVENT_PAIR
+        assert math.isnan(estimate.extent)

@@ -93,8 +93,7 @@ def test_every_module_of_the_installed_wheel_can_be_imported(installed):
     assert modules <= set(installed("python", "-c", EVERY_MODULE).split())
 
 
-def test_the_installed_wheel_knows_its_rigs_and_imports_and_checks_a_recording(installed, tmp_path):
-    assert "gearbox" in installed("spallgen", "catalog")
+def test_the_installed_wheel_imports_and_checks_a_recording(installed, tmp_path):
     np.save(tmp_path / "noise.npy", np.random.default_rng(0).standard_normal(4000))
     settings = 'name = "r"\nfiles = "noise.npy"\nunit = "g"\nrate_hz = 1000\ny = "data"\n'
     (tmp_path / "spec.toml").write_text(f'name = "s"\n[[recording]]\n{settings}')

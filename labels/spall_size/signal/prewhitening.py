@@ -17,6 +17,8 @@ REWEIGHTINGS = 2
 FLOOR_SHARE = 0.02
 # Share of a sample's power that is added to it alone, so that the predictor is defined whatever the signal.
 RIDGE = 1e-9
+# Residuals below this share of the signal's RMS are rounding: of a signal that is silent most of the time.
+ROUNDING = 1e-9
 # Samples whose products are summed at a time, to bound the memory.
 BLOCK = 1 << 12
 
@@ -45,7 +47,7 @@ def prewhitened(signal: Array) -> Prewhitened:
     for _ in range(REWEIGHTINGS):
         coefficients = _reweighted(x, coefficients)
     residual = _residual(x, coefficients)
-    unit = max(float(np.median(np.abs(residual))), 1e-300)
+    unit = max(float(np.median(np.abs(residual))), ROUNDING)
     return Prewhitened(residual / unit, unit * scale)
 
 

@@ -10,7 +10,6 @@ the shaft are exact and taken off beforehand.
 from __future__ import annotations
 
 import cmath
-import math
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
@@ -236,7 +235,7 @@ def amplitudes_of(flow: LinearFlow, state: Array) -> Array:
 @njit_lean
 def physical_state(flow: LinearFlow, time: float, amplitudes: Array, state: Array) -> None:
     """Fill `state` (12,), displacements (m) then velocities (m/s), from the `amplitudes` (12,) at `time`."""
-    cosine, sine = math.cos(flow.shaft_speed * time), math.sin(flow.shaft_speed * time)
+    cosine, sine = cosine_sine(flow.shaft_speed * time)
     for axis in range(2):
         for part in range(6):
             row = SHAPE + part

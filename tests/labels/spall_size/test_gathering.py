@@ -341,6 +341,14 @@ def test_prewhitened_noise_is_told_in_units_of_its_median_size():
     assert found.unit == pytest.approx(3.0 * 0.6745, rel=0.02)
 
 
+def test_of_a_signal_that_is_silent_most_of_the_time_the_unit_is_no_rounding():
+    clicks = np.zeros(20_000)
+    clicks[::499] = 1.0
+    residual = prewhitened(np.concatenate([clicks, -clicks])).residual
+    assert np.median(np.abs(residual)) == 0.0
+    assert np.isfinite(np.sum(residual**2))
+
+
 @pytest.mark.parametrize("scale", [1e-3, 1.0, 1e3])
 def test_differences_of_white_noise_have_twice_its_variance_whatever_its_scale(scale):
     noise = scale * np.random.default_rng(0).standard_normal(100_000)

@@ -34,6 +34,8 @@ AS_STATED = 0.003
 # Nats of shaft harmonics above which the speed is taken as known; noise alone has 8 at most, in 120 records.
 CERTAIN_SPEED = 15.0
 VIBRATION_ORDERS = 12.0
+# Share by which a race's family may lie higher than stated, and turns of the shaft to its farthest sideband.
+FASTER, TURNS_BESIDE = 0.06, 2.0
 # Fundamentals, in orders, that no part of a bearing has by design: what other machines and chance put there.
 DECOYS = (2.31, 2.63, 2.87, 3.17, 3.37, 3.71, 4.29, 4.61, 5.23, 5.83, 6.37, 6.71, 7.37, 8.29)
 RATIOS = (0.5, 2.0 / 3.0, 1.0, 1.5, 2.0)
@@ -53,8 +55,10 @@ class Analysis:
 
     @property
     def top_hz(self) -> float:
-        """Highest frequency of interest in an envelope, Hz."""
-        return (ENVELOPE_HARMONICS * max(self.given.bpfo, self.given.bpfi) * 1.06 + 2.0) * self.given.shaft_hz
+        """Highest frequency of interest in an envelope, Hz: of the highest harmonic, however the cage slips and the
+        speed is off, and of the sidebands beside it."""
+        fastest = ENVELOPE_HARMONICS * max(self.given.bpfo, self.given.bpfi) * (1.0 + FASTER)
+        return (fastest + TURNS_BESIDE) * self.given.shaft_hz
 
     @cached_property
     def envelopes(self) -> EnvelopeSpectra:

@@ -17,9 +17,11 @@ from physics.arrays import Array
 ENVELOPE_HARMONICS = 4.0
 # Share of the bandwidth above which no band has lines of an envelope.
 HIGHEST_SHARE = 0.45
+# Shaft orders over which the floor is taken, and how many components these are at least.
 FLOOR_ORDERS = 3.0
-FULL_SHARE = 0.85
 FEWEST_FLOOR_BINS = 16
+# Share of a band's width up to which enough pairs of its frequencies lie that far apart.
+FULL_SHARE = 0.85
 
 
 @dataclass(frozen=True)

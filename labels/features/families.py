@@ -22,9 +22,10 @@ STANDS_OUT = 4.0
 KNEE = 12.0
 # Harmonics of a fundamental beside which sidebands are looked for.
 SIDEBAND_CARRIERS = 2
+# Half the width of a sideband, in shaft orders.
+SIDEBAND_HALF_WIDTH = 0.02
 # Widths of the first harmonic in shaft orders; those of harmonic k are k times as wide, since slip smears so.
 WIDTHS = (0.0, 0.02, 0.06)
-HANN_BINS = 1.5
 
 
 def evidence(ratio: Array, components: Array | float) -> Array:
@@ -37,9 +38,8 @@ def evidence(ratio: Array, components: Array | float) -> Array:
 def harmonic_evidence(lines: Lines, fundamentals: Array, shaft_hz: float, width: float, harmonics: int) -> Array:
     """Evidence (H, B, N), nats, of harmonics 1 to H of the `fundamentals` (N,), Hz, in B bands, at one of WIDTHS."""
     order = np.arange(1.0, harmonics + 1.0)
-    half = np.maximum(0.5 * order * width * shaft_hz, 0.75 * lines.step)
-    components = np.maximum(2.0 * half / lines.step / HANN_BINS, 1.0)
-    return evidence(lines.means(order[:, None] * fundamentals, half), components[:, None, None])
+    half = np.maximum(0.5 * order * width * shaft_hz, lines.narrowest)
+    return evidence(lines.means(order[:, None] * fundamentals, half), lines.components(half)[:, None, None])
 
 
 def tempered(nats: Array) -> Array:
@@ -113,9 +113,8 @@ def _stronger(old: Family, new: Family) -> Family:
 def sideband_evidence(lines: Lines, fundamental: Array, spacing: float, shaft_hz: float) -> Array:
     """Evidence (B,), nats, of the sidebands `spacing` (Hz) beside the first harmonics of each band's own `fundamental`
     (B,), Hz."""
-    half = max(0.02 * shaft_hz, 0.75 * lines.step)
-    components = max(2.0 * half / lines.step / HANN_BINS, 1.0)
     places = [k * fundamental + sign * spacing for k in range(1, SIDEBAND_CARRIERS + 1) for sign in (-1.0, 1.0)]
+    half = np.full(len(places), max(SIDEBAND_HALF_WIDTH * shaft_hz, lines.narrowest))
     bands = np.arange(fundamental.size)
-    ratio = lines.means(np.array(places), np.full(len(places), half))[:, bands, bands]
-    return np.asarray(evidence(ratio, components).sum(axis=0))
+    ratio = lines.means(np.array(places), half)[:, bands, bands]
+    return np.asarray(evidence(ratio, lines.components(half)[:, None]).sum(axis=0))

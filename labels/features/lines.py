@@ -9,6 +9,9 @@ import numpy as np
 from physics.arrays import Array
 from physics.compiled import njit_inline, njit_lean
 
+# Noise bandwidth of a Hann window, components: fewer do not tell a line from noise, nor one line from another.
+HANN_BINS = 1.5
+
 
 @dataclass(frozen=True)
 class Lines:
@@ -16,6 +19,15 @@ class Lines:
 
     cumulated: Array
     step: float
+
+    @property
+    def narrowest(self) -> float:
+        """Half the width over which a mean is taken at least."""
+        return 0.5 * HANN_BINS * self.step
+
+    def components(self, half_widths: Array) -> Array:
+        """How many components that do not hang together lie within ± `half_widths` (H,), 1 or more."""
+        return np.maximum(2.0 * half_widths / self.step / HANN_BINS, 1.0)
 
     def means(self, centres: Array, half_widths: Array) -> Array:
         """Mean excess (H, B, N) over `centres` (H, N) ± `half_widths` (H,), in the unit of `step`; 0 beyond the end."""

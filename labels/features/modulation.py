@@ -16,6 +16,8 @@ SES = "Randall & Antoni 2011, Mech. Syst. Signal Process. 25 (squared envelope s
 COMPARED = ("evidence", "spread", "strength", "depth", "others")
 LEADS = ("evidence", "spread", "strength", "others")
 STRENGTH_HARMONICS = 3
+# Share by which the lines of the shaft may be off from its refined speed.
+SHAFT_WITHIN = 0.002
 
 
 def _counted_in(name: str) -> str:
@@ -73,7 +75,7 @@ def measure(analysis: Analysis) -> dict[str, float]:
     for name in COMPARED:
         found[f"race_{name}"] = found[f"outer_{name}"] - found[f"inner_{name}"]
     found |= {f"inner_lead_{name}": max(-found[f"race_{name}"], 0.0) for name in LEADS}
-    turning = find_family(analysis.all_envelope_lines, shaft, 0.002, shaft)
+    turning = find_family(analysis.all_envelope_lines, shaft, SHAFT_WITHIN, shaft)
     decoys = analysis.decoys
     return found | {
         "ball_evidence": _log(analysis.envelope_family(2.0 * known.ball_spin).evidence.max()),
@@ -113,7 +115,7 @@ def line_strength(lines: Lines, centre: float, tolerance: float) -> float:
     count = int(np.ceil(2.0 * tolerance * centre * STRENGTH_HARMONICS / (0.5 * lines.step))) + 1
     grid = centre * np.linspace(1.0 - tolerance, 1.0 + tolerance, max(9, min(count, 1200)))
     order = np.arange(1.0, STRENGTH_HARMONICS + 1.0)
-    means = lines.means(order[:, None] * grid, np.full(STRENGTH_HARMONICS, 0.75 * lines.step))
+    means = lines.means(order[:, None] * grid, np.full(STRENGTH_HARMONICS, lines.narrowest))
     # Means are differences of running sums: rounding can leave one below zero where a band is silent.
     return float(np.sqrt(np.maximum(means, 0.0)).mean(axis=0).max())
 

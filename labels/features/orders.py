@@ -15,6 +15,8 @@ ORDERS = "ISO 13373-2:2016 (narrow-band spectra, orders); Petersen et al. 2014, 
 CEPSTRUM = "Randall 2017, Mech. Syst. Signal Process. 97 (cepstrum analysis)"
 LINE_ORDERS = 0.03
 RAHMONICS = 2
+# Shares of a rahmonic's place: within which its largest value lies, and between which the scatter round it is taken.
+RAHMONIC_WITHIN, SCATTER_WITHIN = 0.006, (0.7, 1.3)
 VELOCITY_HARMONICS = 6
 
 ROWS = (
@@ -93,8 +95,9 @@ def rahmonics(analysis: Analysis, cepstrum: Array, frequency: float) -> float:
     heights = []
     for k in range(1, RAHMONICS + 1):
         centre = k * rate / frequency
-        reach = max(1, round(0.006 * centre))
-        wide = slice(max(1, int(0.7 * centre)), min(cepstrum.size // 2, int(1.3 * centre) + 2))
+        reach = max(1, round(RAHMONIC_WITHIN * centre))
+        first, last = (int(share * centre) for share in SCATTER_WITHIN)
+        wide = slice(max(1, first), min(cepstrum.size // 2, last + 2))
         near = slice(max(1, int(centre) - reach), min(cepstrum.size // 2, int(centre) + reach + 2))
         if near.stop <= near.start:
             return 0.0

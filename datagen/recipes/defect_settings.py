@@ -155,9 +155,9 @@ def _check_reach(extent: Distribution, condition: str, ball_counts: tuple[int, .
     """A line spall, of an extent in degrees, is shorter than the ball spacing of some bearing, an extended one not."""
     widest, narrowest = 360.0 / min(ball_counts), 360.0 / max(ball_counts)
     if condition == "line" and min(extent.stated()) >= widest * EXTENDED_FROM:
-        raise refuse("a line spall is shorter than the ball spacing", field, f"below {widest:.6g}")
+        raise refuse("a line spall is shorter than the ball spacing", field, f"below {widest:.9g}")
     if condition == "extended" and max(extent.stated()) < narrowest * EXTENDED_FROM:
-        raise refuse("an extended spall is at least as long as the ball spacing", field, f"{narrowest:.6g} or more")
+        raise refuse("an extended spall is at least as long as the ball spacing", field, f"{narrowest:.9g} or more")
 
 
 def _given(table: BaseModel | None) -> dict[str, Any]:

@@ -159,9 +159,11 @@ def test_ctrl_c_ends_with_130_and_leaves_a_usable_corpus_and_no_process(
     longer: Path, tmp_path: Path, contents: Contents
 ) -> None:
     ends_well(ctrl_c, 130, longer, tmp_path / "out")
-    for folder in ("out", "uninterrupted"):
-        assert generate(load_recipe(longer), tmp_path / folder, engine=Engine(workers=1)).complete
-    assert contents(tmp_path / "out") == contents(tmp_path / "uninterrupted")
+    for folder in ("out", "uninterrupted"):  # as many records as fill ten shards
+        generate(load_recipe(longer), tmp_path / folder, limit=19, engine=Engine(workers=1))
+    shards = contents(tmp_path / "uninterrupted")
+    assert len(shards) == 10
+    assert shards.items() <= contents(tmp_path / "out").items()
 
 
 def test_what_is_interrupted_between_a_shard_and_its_sidecar_leaves_no_shard(

@@ -13,7 +13,7 @@ from datagen.recipes.recipe import Recipe, load_recipe, parse_recipe
 
 DATASETS = Path(__file__).resolve().parents[2] / "datasets"
 EVERY = sorted(path.parent.name for path in DATASETS.glob("*/recipe.toml"))
-LONG = ("corpus", "size_imperfect", "size_training")  # ten seconds and more each
+LONG = ("corpus", "size_imperfect", "size_training", "transfer")  # seven seconds and more each
 ROUNDING = 1e-6
 
 

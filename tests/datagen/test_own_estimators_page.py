@@ -42,7 +42,10 @@ def divided(copy):
     return copy
 
 
-@pytest.mark.parametrize("line", LINES)
+# A forest of so many trees learns for twenty seconds.
+@pytest.mark.parametrize(
+    "line", [pytest.param(line, marks=pytest.mark.slow if "my_forest" in line else ()) for line in LINES]
+)
 def test_every_example_runs_as_it_stands(line, divided, where_the_examples_are):
     command = re.sub(r"out/\w+", str(divided), line).removeprefix("spallgen ")
     done = run(*shlex.split(command), "--json", "result.json")

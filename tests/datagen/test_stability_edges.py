@@ -58,6 +58,7 @@ def test_just_outside_an_edge_the_method_is_refused_and_the_default_keeps_the_ac
     assert error(simulate(scene, RATE, Accurate(accuracy)), scene) <= accuracy
 
 
+@pytest.mark.slow
 def test_where_own_steps_become_too_short_they_are_given_up_with_a_typed_outcome():
     kept = simulate(scene_with("contact stiffness K", 1e5), RATE, HalvedSteps(method="dormand_prince"))
     assert error(kept, scene_with("contact stiffness K", 1e5)) <= 1e-3

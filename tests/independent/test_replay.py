@@ -69,6 +69,7 @@ def test_the_script_imports_nothing_but_the_standard_library_numpy_scipy_and_num
         assert imported - set(sys.stdlib_module_names) <= {"numpy", "scipy", "numba"}
 
 
+@pytest.mark.slow
 def test_the_script_run_alone_on_a_text_writes_what_the_function_returns(tmp_path):
     scene = reference_scene_json("F1", duration=0.004)
     (tmp_path / "scenario.json").write_text(json.dumps(scene), encoding="utf-8")

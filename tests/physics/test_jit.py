@@ -174,7 +174,7 @@ import sys
 sys.path.insert(0, "")
 from physics._jit import is_cached
 from physics.statics.rest import solve_at
-from physics.statics.stiffness import expected
+from physics.statics.successive_rest import expected
 import numpy as np
 
 before = is_cached(expected)

@@ -49,6 +49,7 @@ print(is_warm())
 """
 
 
+@pytest.mark.slow
 def test_what_drawing_scenarios_compiles_does_not_pass_for_a_warm_cache(tmp_path: Path) -> None:
     environment = {**os.environ, "SPALLGEN_CACHE": str(tmp_path)}
     done = subprocess.run([sys.executable, "-c", DRAWN], capture_output=True, text=True, check=True, env=environment)

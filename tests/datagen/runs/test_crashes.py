@@ -87,7 +87,7 @@ def wait_until(done: Callable[[], bool], seconds: float) -> bool:
     return done()
 
 
-@pytest.mark.parametrize("finished", [0, 1, 4])
+@pytest.mark.parametrize("finished", [1, *(pytest.param(some, marks=pytest.mark.slow) for some in (0, 4))])
 def test_a_killed_run_leaves_no_process_and_resumes_to_the_same_arrays(
     finished: int, tiny: Recipe, tiny_recipe: Path, expected: dict[int, str], tmp_path: Path, contents: Contents
 ) -> None:
@@ -180,7 +180,7 @@ def test_what_is_interrupted_between_a_shard_and_its_sidecar_leaves_no_shard(
     assert list((tmp_path / "out" / "shards").iterdir()) == []
 
 
-@pytest.mark.parametrize("stop", [sigterm, sigterms_to_all])
+@pytest.mark.parametrize("stop", [pytest.param(sigterm, marks=pytest.mark.slow), sigterms_to_all])
 def test_sigterm_ends_as_ctrl_c_does_with_143(stop: Callable[[Process], None], longer: Path, tmp_path: Path) -> None:
     ends_well(stop, 143, longer, tmp_path / "out")
 

@@ -70,6 +70,7 @@ def test_two_workers_give_the_arrays_that_one_gives(
     assert contents(tmp_path / "two") == expected
 
 
+@pytest.mark.slow
 def test_the_dask_backend_gives_the_arrays_that_one_worker_gives(
     tiny: Recipe, expected: dict[int, str], tmp_path: Path, contents: Contents
 ) -> None:

@@ -461,6 +461,7 @@ def test_a_ball_that_changes_sides_and_back_within_a_step_is_not_passed_over(nam
     assert np.abs(found.time[here] - fine.time[there]).max() < 0.1 / RATE  # of changes, not of their pairs
 
 
+@pytest.mark.slow
 def test_the_crest_of_a_wave_shorter_than_a_sample_is_not_passed_over(fan, build_scene):
     speed = 20000.0 * math.pi / 30.0
     operation, waves = {"shaft_speed": speed, "load": 100.0}, (Waviness("inner", 500, 1e-6),)

@@ -356,6 +356,7 @@ def test_a_closed_output_ends_no_command() -> None:
     assert (done.returncode, done.stderr) == (0, "")
 
 
+@pytest.mark.slow
 def test_nor_do_workers_end_where_all_standard_streams_are_closed(tiny_recipe: Path, tmp_path: Path) -> None:
     given = '"$0" -m datagen generate "$1" --out "$2" --records 0,9 --workers 2 <&- >&- 2>&-'
     done = subprocess.run(["sh", "-c", given, sys.executable, tiny_recipe, tmp_path / "out"], cwd=ROOT)

@@ -47,6 +47,7 @@ def test_a_place_that_is_no_whole_number_is_none(corpus: Corpus) -> None:
             corpus[place]  # type: ignore[index]
 
 
+@pytest.mark.slow
 def test_folders_may_be_given_as_text(tiny_corpus: Path, tmp_path: Path) -> None:
     assert repr(Corpus(str(tiny_corpus))) == f"Corpus('{tiny_corpus}')"
     assert corpus_info(str(tiny_corpus)).records == check_corpus(str(tiny_corpus)).records == 14
@@ -358,6 +359,7 @@ def test_a_record_that_a_later_run_has_moved_is_not_taken_for_another(tiny: Reci
     assert np.array_equal(Corpus(tmp_path / "out").waveform(5), before)
 
 
+@pytest.mark.slow
 def test_a_folder_may_be_named_from_home(tiny_corpus: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("HOME", str(tiny_corpus.parent))
     folder = f"~/{tiny_corpus.name}"

@@ -149,7 +149,7 @@ def test_a_record_of_a_machine_that_has_run_before_agrees_with_its_text_from_the
     assert distance(simulate(made, RATE).acceleration[:1], again["acceleration"][:1]) > 0.9  # which begins at rest
 
 
-@pytest.mark.parametrize(("rate", "factor"), [(16384.0, 7), (25600.0, 5)])
+@pytest.mark.parametrize(("rate", "factor"), [(16384.0, 7), pytest.param(25600.0, 5, marks=pytest.mark.slow)])
 def test_a_record_at_a_low_rate_agrees_to_its_ends_once_it_is_lowered_as_its_text_says(rate, factor):
     made = scene("gearbox", spall())
     text = json.loads(text_of(made, rate))

@@ -157,6 +157,7 @@ def test_metadata_point_to_the_files_of_the_corpus_from_wherever_they_lie(
         assert shards == {path.resolve() for path in (corpus / "shards").glob("*.nc")} != set()
 
 
+@pytest.mark.slow
 def test_what_nobody_stated_for_the_metadata_is_said(measured: Path, tiny_corpus: Path, tmp_path: Path) -> None:
     for corpus, missing in (
         (measured, "creator, datePublished"),

@@ -159,6 +159,7 @@ def read_text(corpus: Corpus, record: int) -> dict[str, object]:
 
 
 @pytest.mark.skipif("fork" not in multiprocessing.get_all_start_methods(), reason="this system does not fork")
+@pytest.mark.slow
 def test_forked_processes_read_what_their_parent_reads_and_so_does_it_afterwards(tiny_corpus: Path) -> None:
     # While the parent's files stayed open, processes that opened and closed larger ones again crashed.
     with Corpus(tiny_corpus) as corpus:

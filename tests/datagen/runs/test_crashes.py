@@ -104,6 +104,7 @@ def test_a_killed_run_leaves_no_process_and_resumes_to_the_same_arrays(
     assert check_corpus(tmp_path / "out").problems == ()
 
 
+@pytest.mark.slow
 def test_a_run_that_loses_a_worker_says_so_and_makes_everything(
     tiny_recipe: Path, expected: dict[int, str], tmp_path: Path, contents: Contents
 ) -> None:

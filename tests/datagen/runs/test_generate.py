@@ -63,6 +63,7 @@ def test_a_shard_alone_says_under_which_terms_it_is_and_how_to_cite_it(tiny: Rec
         assert (shard.attrs["license"], shard.attrs["references"]) == ("CC BY 4.0", f"{model}; A. Nybody, 2020")
 
 
+@pytest.mark.slow
 def test_two_workers_give_the_arrays_that_one_gives(
     tiny: Recipe, expected: dict[int, str], tmp_path: Path, contents: Contents
 ) -> None:
@@ -545,7 +546,7 @@ def test_a_cache_that_a_crash_cut_short_is_made_again_by_the_next_run(tmp_path: 
     assert (done.returncode, "Traceback" in done.stderr) == (0, False), done.stderr
 
 
-@pytest.mark.parametrize("name", ["quickstart", "corpus"])
+@pytest.mark.parametrize("name", ["quickstart", pytest.param("corpus", marks=pytest.mark.slow)])
 def test_a_run_loads_no_package_that_is_slow_to_load_and_that_it_does_not_need(name: str, tmp_path: Path) -> None:
     script = (
         "import sys\n"

@@ -52,6 +52,7 @@ def grow(size: int) -> int:
     return os.getpid()
 
 
+@pytest.mark.slow
 def test_a_worker_may_grow_by_what_long_records_take(recwarn: pytest.WarningsRecorder) -> None:
     pytest.importorskip("psutil", reason="loky looks at the memory of workers only where psutil is installed")
     with engaged(Engine(workers=2)):
@@ -76,6 +77,7 @@ def test_without_dask_the_message_says_how_a_checkout_installs_it(monkeypatch: p
         results(Engine(backend="dask"), pow, [(1, 1)])
 
 
+@pytest.mark.slow
 def test_a_task_that_never_ends_on_dask_is_reported_as_lost_after_its_time_limit() -> None:
     with pytest.raises(WorkerLost):
         results(Engine(workers=2, backend="dask"), time.sleep, [(600.0,)] * 2)

@@ -108,7 +108,7 @@ def test_the_first_records_of_a_sobol_design_are_already_spread() -> None:
         assert sorted(np.floor(column * 16).astype(int)) == list(range(16))
 
 
-@pytest.mark.parametrize("kind", DESIGNS)
+@pytest.mark.parametrize("kind", [pytest.param(k, marks=pytest.mark.slow if k != "sobol" else ()) for k in DESIGNS])
 def test_a_designed_record_is_remade_alone_and_in_any_order(kind: str) -> None:
     recipe = recipe_of(kind, 12, records_per_machine=3)
     forward = draw_all(recipe)

@@ -58,8 +58,15 @@ def redrawn(recipe: Recipe) -> list[int]:
 
 
 @pytest.mark.parametrize("impossible", OFTEN_IMPOSSIBLE)
-@pytest.mark.parametrize("drawn_for", ["record", "machine"])
-@pytest.mark.parametrize("design", ["random", "sobol"])
+@pytest.mark.parametrize(
+    ("drawn_for", "design"),
+    [
+        ("record", "random"),
+        ("machine", "sobol"),
+        pytest.param("machine", "random", marks=pytest.mark.slow),
+        pytest.param("record", "sobol", marks=pytest.mark.slow),
+    ],
+)
 def test_every_record_has_the_condition_and_race_that_it_has_where_all_is_possible(
     impossible: str, drawn_for: str, design: str
 ) -> None:

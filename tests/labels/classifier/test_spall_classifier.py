@@ -90,7 +90,7 @@ def test_few_healthy_rows_of_unseen_bearings_pass_the_alarm(fitted):
     assert 0.0 < np.mean(said != "healthy") < 0.13
 
 
-@pytest.mark.parametrize("kind", LEARNERS)
+@pytest.mark.parametrize("kind", ["logistic", "boosting", pytest.param("forest", marks=pytest.mark.slow)])
 def test_more_evidence_never_makes_a_spall_less_likely(kind):
     model = SpallClassifier(kind).fit(*made_up(150, 1))
     table, _, _ = made_up(60, 5)

@@ -17,9 +17,8 @@ from physics.simulate import simulate
 from physics.statics.load_distribution import resting
 
 
-@pytest.mark.parametrize(
-    ("name", "rate", "times"), [("F1", 2000.0, 40.0), pytest.param("F2r", 700.0, 30.0, marks=pytest.mark.slow)]
-)
+@pytest.mark.slow
+@pytest.mark.parametrize(("name", "rate", "times"), [("F1", 2000.0, 40.0), ("F2r", 700.0, 30.0)])
 def test_a_fast_machine_recorded_slowly_keeps_the_accuracy_of_what_is_recorded(name, rate, times):
     """Its ball passes lie above what is recorded, which holds less than a thousandth of the signal."""
     scene = reference_scene(name, 1.5, speed_factor=times)

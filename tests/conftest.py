@@ -1,4 +1,4 @@
-"""Before the first test and in which order files of tests are run."""
+"""What is done before the first test, and in which order files of tests are run."""
 
 import os
 

@@ -25,9 +25,9 @@ MAP = "magma"
 # Ends of a logarithmic axis that is given plain numbers, and its highest over its lowest value, below which ticks stand
 # at equal distances, and below which also at 2 and 5 of each decade.
 PLAIN = (1e-3, 99999.0)
+LINEAR_BELOW, FINE_BELOW = 8.0, 300.0
 # Largest over smallest value of a quantity above which it is drawn over a logarithmic axis.
 LOGARITHMIC_FROM = 20.0
-LINEAR_BELOW, FINE_BELOW = 8.0, 300.0
 
 SETTINGS: dict[Any, Any] = {
     "font.family": "DejaVu Sans",

@@ -22,11 +22,11 @@ class Lines:
 
     @property
     def narrowest(self) -> float:
-        """Half the width over which a mean is taken at least."""
+        """Half the width, in the unit of `step`, over which a mean is taken at least."""
         return 0.5 * HANN_BINS * self.step
 
     def components(self, half_widths: Array) -> Array:
-        """How many components that do not hang together lie within ± `half_widths` (H,), 1 or more."""
+        """How many independent components (H,), 1 or more, lie within ± `half_widths` (H,), in the unit of `step`."""
         return np.maximum(2.0 * half_widths / self.step / HANN_BINS, 1.0)
 
     def means(self, centres: Array, half_widths: Array) -> Array:

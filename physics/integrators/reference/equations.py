@@ -235,20 +235,14 @@ def contact_set(equations: Equations, time: float, state: Array) -> Flags:
 @njit
 def slopes(equations: Equations, touching: Flags, time: float, state: Array) -> Array:
     """Time derivative (12,) of the state while exactly the balls `touching` (B,) are in contact."""
-    push_x, push_y, turn = 0.0, 0.0, _turn(equations, time)
+    contact = np.zeros(2)
+    loads, turn = equations.loads, _turn(equations, time)
     for ball in range(touching.size):
         if touching[ball]:
             _, force, cosine, sine = _pressed(equations, turn, time, state, ball)
             radial = force * equations.law.cosine_of_contact_angle
-            push_x += radial * cosine
-            push_y += radial * sine
-    return accelerated(equations, push_x, push_y, time, state)
-
-
-@njit
-def accelerated(equations: Equations, push_x: float, push_y: float, time: float, state: Array) -> Array:
-    """Time derivative (12,) of the state under the net contact force (N) that pushes the outer ring."""
-    loads, contact = equations.loads, (push_x, push_y)
+            contact[0] += radial * cosine
+            contact[1] += radial * sine
     turned = loads.shaft_speed * time
     load = np.empty(2)
     load[0] = loads.unbalance * math.cos(turned + loads.unbalance_phase)

@@ -200,13 +200,15 @@ def test_a_shard_that_other_physics_made_is_found(copy: Path) -> None:
     assert only_problem(copy) == problem
 
 
-def test_a_scenario_that_the_recipe_does_not_give_is_found(copy: Path) -> None:
-    def rewrite(dataset: xarray.Dataset) -> xarray.Dataset:
-        texts = dataset["scenario"].values.astype(object)
-        texts[0] = texts[0].replace('"W":346.0', '"W":346.5')
-        return dataset.assign(scenario=("record", texts.astype(np.str_), dataset["scenario"].attrs))
+def with_another_load(dataset: xarray.Dataset) -> xarray.Dataset:
+    """The shard with half a newton more in the scenario of its first record."""
+    texts = dataset["scenario"].values.astype(object)
+    texts[0] = texts[0].replace('"W":346.0', '"W":346.5')
+    return dataset.assign(scenario=("record", texts.astype(np.str_), dataset["scenario"].attrs))
 
-    forge(copy, 0, rewrite)
+
+def test_a_scenario_that_the_recipe_does_not_give_is_found(copy: Path) -> None:
+    forge(copy, 0, with_another_load)
     assert "the recipe gives record 0 another scenario" in only_problem(copy)
 
 
@@ -352,12 +354,7 @@ def test_a_signal_that_the_recipe_stores_of_every_record_is_found_missing(
 
 
 def test_what_another_version_drew_is_not_held_against_this_ones_drawing(copy: Path) -> None:
-    def rewrite(dataset: xarray.Dataset) -> xarray.Dataset:
-        texts = dataset["scenario"].values.astype(object)
-        texts[0] = texts[0].replace('"W":346.0', '"W":346.5')
-        return dataset.assign(scenario=("record", texts.astype(np.str_), dataset["scenario"].attrs))
-
-    forge(copy, 0, rewrite)
+    forge(copy, 0, with_another_load)
     assert "another scenario" in only_problem(copy)
     for path in (copy / "manifest.json", *(copy / "shards").glob("*.json")):
         content = json.loads(path.read_text())

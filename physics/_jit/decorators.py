@@ -16,7 +16,8 @@ USUAL: dict[str, Any] = {"cache": True, "error_model": "numpy", "nogil": True, "
 LEAN: dict[str, Any] = {**USUAL, "_nrt": False}
 # Parts have no files of their own: around one that was read from the disk, a kernel would be other machine code than
 # around one compiled with it, and so depend on what was compiled before.
-PART: dict[str, Any] = {**LEAN, "cache": False, "no_cpython_wrapper": True}
+PART: dict[str, Any] = {**USUAL, "cache": False, "no_cpython_wrapper": True}
+LEAN_PART: dict[str, Any] = {**PART, "_nrt": False}
 
 
 def njit(kernel: Kernel) -> Kernel:
@@ -29,17 +30,22 @@ def njit_lean(kernel: Kernel) -> Kernel:
     return cast(Kernel, _decorator(**LEAN)(kernel))
 
 
-def njit_inner(kernel: Kernel) -> Kernel:
-    """Like `njit_lean`, but only other kernels can call it; called from Python, it raises TypeError.
+def njit_part(kernel: Kernel) -> Kernel:
+    """Like `njit`, but only other kernels can call it; called from Python, it raises TypeError.
 
     A kernel that takes dozens of arrays compiles in half the time without code that unpacks them from Python objects.
     """
     return cast(Kernel, _without_door(_decorator(**PART)(kernel)))
 
 
+def njit_inner(kernel: Kernel) -> Kernel:
+    """Like `njit_part` for a kernel that creates no array, as `njit_lean` is like `njit`."""
+    return cast(Kernel, _without_door(_decorator(**LEAN_PART)(kernel)))
+
+
 def njit_inline(kernel: Kernel) -> Kernel:
     """Like `njit_inner`, and inlined by the compiler, which spares passing every array as a dozen arguments."""
-    return cast(Kernel, _without_door(_decorator(**PART, forceinline=True)(kernel)))
+    return cast(Kernel, _without_door(_decorator(**LEAN_PART, forceinline=True)(kernel)))
 
 
 def njit_pasted(kernel: Kernel) -> Kernel:
@@ -48,7 +54,10 @@ def njit_pasted(kernel: Kernel) -> Kernel:
 
 
 def _without_door(compiled: Any) -> Any:
-    """The compiled kernel, made to raise TypeError if it is called from Python, where it has no code to run."""
+    """The compiled kernel, made to raise TypeError if it is called from Python, where it has no code to run.
+
+    It is compiled once for all numbers of a kind, and not anew for each that callers write out.
+    """
 
     def keep(result: Any) -> None:
         compiled.overloads[tuple(result.signature.args)] = result
@@ -56,11 +65,17 @@ def _without_door(compiled: Any) -> Any:
     def refuse(*_: Any, **__: Any) -> None:
         raise TypeError(f"{compiled.__name__} is a part of compiled kernels; from Python call its py_func")
 
-    compiled.add_overload, compiled._compile_for_args = keep, refuse
+    def of_kinds(args: tuple[Any, ...], named: dict[str, Any]) -> Any:
+        kinds = {name: numba.types.unliteral(kind) for name, kind in named.items()}
+        return type(compiled).get_call_template(compiled, tuple(map(numba.types.unliteral, args)), kinds)
+
+    compiled.add_overload, compiled._compile_for_args, compiled.get_call_template = keep, refuse, of_kinds
     return compiled
 
 
-def specialise(template: Callable[..., Any], name: str, **bindings: Any) -> Callable[..., Any]:
+def specialise(
+    template: Callable[..., Any], name: str, compiled_by: Callable[..., Any] = njit, **bindings: Any
+) -> Callable[..., Any]:
     """Compile a copy of `template` under `name`, with `bindings` in place of its module's names.
 
     A compiled function given as an argument or a closure would miss the compile cache in every process.
@@ -68,7 +83,7 @@ def specialise(template: Callable[..., Any], name: str, **bindings: Any) -> Call
     copy = types.FunctionType(template.__code__, {**template.__globals__, **bindings}, name, template.__defaults__)
     copy.__qualname__ = name
     copy.__doc__ = template.__doc__
-    return njit(copy)
+    return compiled_by(copy)
 
 
 def uncompiled(kernel: Callable[..., Any]) -> Callable[..., Any]:

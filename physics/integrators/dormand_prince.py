@@ -11,7 +11,7 @@ import math
 
 import numpy as np
 
-from physics._jit import njit
+from physics._jit import njit, njit_inner, njit_part
 from physics.arrays import Array
 from physics.contact.contact_set import count_changes
 from physics.contact.forces import Contacts, set_time
@@ -50,7 +50,7 @@ DENSE = np.array(
 )
 
 
-@njit
+@njit_inner
 def slope(contacts: Contacts, motion: MotionModel, time: float, state: Array, rate: Array) -> tuple[float, float]:
     """Fill `rate` (12,) with the time derivative of `state` (12,) under the frozen contact set; the net force (N)."""
     set_time(contacts, time)
@@ -61,7 +61,7 @@ def slope(contacts: Contacts, motion: MotionModel, time: float, state: Array, ra
     return force
 
 
-@njit
+@njit_part
 def attempt(
     contacts: Contacts,
     motion: MotionModel,
@@ -88,7 +88,7 @@ def attempt(
     return Trial(time, step, now, force, then, after, contradicted)
 
 
-@njit
+@njit_part
 def local_error(rates: Array, step: float, scale: Array) -> float:
     """Largest difference between the pair's two solutions, relative to `scale` (12,).
 
@@ -116,7 +116,7 @@ def make_relative(state: Array) -> None:
             state[first + 4 + axis] -= state[first + 2 + axis]
 
 
-@njit
+@njit_inner
 def dense_output(rates: Array, step: float, start: Array, share: float, state: Array) -> None:
     """Fill `state` (12,) at the `share` (0 to 1) of the step that began at `start`."""
     for i in range(12):

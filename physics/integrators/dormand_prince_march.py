@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from physics._jit import njit
+from physics._jit import njit, njit_inner, njit_part
 from physics.arrays import Array
 from physics.contact.contact_set import count_changes
 from physics.contact.forces import Contacts, set_time
@@ -32,7 +32,7 @@ from physics.integrators.output import (
 from physics.integrators.propagator import PowerSeries
 from physics.integrators.state_contact import find_contact, locate, press_state
 from physics.integrators.stops import KINK_NUDGE_SHARE, Stops, next_kink, passed_kinks
-from physics.integrators.trial import MOST_CHANGES_PER_STEP, SMALLEST_STEP_SHARE, Trial
+from physics.integrators.trial import MOST_CHANGES_PER_STEP, SMALLEST_STEP_SHARE, Trial, take_over
 from physics.motion import MotionModel
 
 # Local error, relative to the motion seen so far, at one step a sample.
@@ -56,7 +56,7 @@ class Workspace(NamedTuple):
     deviation: Array
 
 
-@njit
+@njit_inner
 def _widen(work: Workspace, start: Array, state: Array, fastest: float) -> None:
     """Let the scale of errors grow with the deviation of `state` from the `start` of the run."""
     for i in range(12):
@@ -67,7 +67,7 @@ def _widen(work: Workspace, start: Array, state: Array, fastest: float) -> None:
         work.scale[i] = max(work.scale[i], abs(work.deviation[i]), floor)
 
 
-@njit
+@njit_inner
 def _sample(
     contacts: Contacts,
     motion: MotionModel,
@@ -89,7 +89,7 @@ def _sample(
     return sample
 
 
-@njit
+@njit_inner
 def _control(error: float, tolerance: float, rejected: bool) -> float:
     """By what the next step is longer than this one."""
     if error == 0.0:
@@ -98,7 +98,7 @@ def _control(error: float, tolerance: float, rejected: bool) -> float:
     return max(MOST_SHRINKING, min(1.0 if rejected else MOST_GROWTH, wished))
 
 
-@njit
+@njit_part
 def _cut(contacts: Contacts, motion: MotionModel, trial: Trial, work: Workspace) -> tuple[Trial, int]:
     """The `trial` repeated up to the first contact change in it, and the ball; the trial itself and −1 if none."""
     share, ball = locate(contacts, motion, trial)
@@ -110,7 +110,7 @@ def _cut(contacts: Contacts, motion: MotionModel, trial: Trial, work: Workspace)
     return Trial(trial.time, 0.0, trial.now, trial.force, trial.now, trial.force, 0), ball
 
 
-@njit
+@njit_inner
 def _hop(time: float, gap: float, now: Array) -> float:
     """Carry `now` straight over a `gap` (s) that holds a kink, so that no stage reads the path on its wrong side."""
     for i in range(6):
@@ -118,7 +118,7 @@ def _hop(time: float, gap: float, now: Array) -> float:
     return time + gap
 
 
-@njit
+@njit_inner
 def _settle(
     contacts: Contacts,
     time: float,
@@ -186,7 +186,7 @@ def march_dormand_prince(
                 return NOT_FINITE
             tried = tried if next_sample == sample else 0
             sample = next_sample
-            now[:] = work.then
+            take_over(now, work.then)
         time = _hop(time + trial.step, 2.0 * nudge if meets else 0.0, now)
         rejected = False
         _widen(work, start_state, now, fastest)

@@ -17,7 +17,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from physics._jit import njit, njit_inline
+from physics._jit import njit_inline, njit_inner
 from physics.arrays import Array
 from physics.contact.contact_set import count_changes, count_dips, mark_of, note_motion
 from physics.contact.forces import ACTIVE, Contacts, set_time
@@ -36,7 +36,7 @@ SAME = 1e-9
 Cubic = tuple[float, float, float, float]
 
 
-@njit
+@njit_inner
 def _restart(
     contacts: Contacts,
     motion: MotionModel,
@@ -51,7 +51,7 @@ def _restart(
     return step_exponential_rk4(contacts, motion, work, time, step, start, force, end)
 
 
-@njit
+@njit_inner
 def polynomial(order: int, now: float, past: Array, axis: int, ahead: float, corrected: bool) -> Cubic:
     """Coefficients from the constant to the cube, in shares of the step, of the force along one axis.
 
@@ -75,7 +75,7 @@ def polynomial(order: int, now: float, past: Array, axis: int, ahead: float, cor
     return now, first + second / 2.0 + third / 3.0, second / 2.0 + third / 2.0, third / 6.0
 
 
-@njit
+@njit_inner
 def _advance(
     motion: MotionModel,
     weights: Array,

@@ -10,7 +10,7 @@ whose positions see older forces.
 
 from __future__ import annotations
 
-from physics._jit import njit, njit_inline
+from physics._jit import njit_inline, njit_inner
 from physics.arrays import Array
 from physics.contact.contact_set import count_changes
 from physics.contact.forces import Contacts, move_to, press
@@ -97,7 +97,7 @@ def flow_freely(weights: Array, step: float, start: Array, stage: Array, end: Ar
             end[OUTER_STATE[component] + axis] = flow_component(weights, axis, WHOLE + component, x, v, r, u)
 
 
-@njit
+@njit_inner
 def flow_component(weights: Array, axis: int, row: int, x: float, v: float, r: float, u: float) -> float:
     """One component of outer ring or resonator after the linear flow alone, from (xo, vo, xr, vr) along one axis."""
     w = weights

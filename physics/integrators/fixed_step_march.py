@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from physics._jit import njit, specialise
+from physics._jit import njit_inner, njit_part, njit_pasted, specialise
 from physics.arrays import Array
 from physics.contact.contact_set import count_changes
 from physics.contact.forces import ACTIVE, Contacts, of_ball, set_time
@@ -30,7 +30,7 @@ from physics.integrators.output import (
 from physics.integrators.propagator import WEIGHT_ROWS, PowerSeries, set_step
 from physics.integrators.state_contact import find_contact, locate, press_state
 from physics.integrators.stops import KINK_NUDGE_SHARE, Stops, next_kink, passed_kinks
-from physics.integrators.trial import MOST_CHANGES_PER_STEP, SMALLEST_STEP_SHARE, Trial
+from physics.integrators.trial import MOST_CHANGES_PER_STEP, SMALLEST_STEP_SHARE, Trial, take_over
 from physics.motion import MotionModel
 
 # Contact starts and ends like |t − t0|^n: steps shrink to this share of the full one next to it.
@@ -54,7 +54,7 @@ class Span(NamedTuple):
     kink: int
 
 
-@njit
+@njit_part
 def workspace(cages: int, balls: int) -> Workspace:
     """Room for the steps of one march, with so many `balls` in each of the `cages`."""
     return Workspace(np.empty((2, WEIGHT_ROWS, 4)), np.empty((4, 6)), np.empty((cages, 2, balls)))
@@ -64,10 +64,9 @@ def _unbound(*_arguments: object) -> Any:
     raise RuntimeError("a march needs the step of a method: use bind_method")
 
 
-# Bound by `bind_method`: the step of the method, pasted into the march's fast path and called from its slow path, and
-# the parts of the slow path.
+# Bound by `bind_method`: the step of the method, pasted into the march's fast path and into `attempt`, and the parts of
+# the slow path.
 step_pasted: Callable[..., int] = _unbound
-step_called: Callable[..., int] = _unbound
 attempt: Callable[..., Trial] = _unbound
 approach: Callable[..., tuple[float, tuple[float, float]]] = _unbound
 cross: Callable[..., tuple[float, float]] = _unbound
@@ -86,7 +85,7 @@ def _attempt(
 ) -> Trial:
     """Try one step of any length up to that of the `series`; leaves `contacts` as `press` does at its end."""
     set_step(series, work.weights, step / series.step)
-    halfway = step_called(contacts, motion, work, time, step, now, force, then)
+    halfway = step_pasted(contacts, motion, work, time, step, now, force, then)
     return Trial(time, step, now, force, then, press_state(contacts, then), halfway)
 
 
@@ -108,7 +107,7 @@ def _approach(
     while left > SMALLEST_STEP_SHARE * series.step:
         length = 0.5 * left if losing and left > SHORTEST_GRADED_SHARE * series.step else left
         force = attempt(contacts, motion, series, work, time, length, trial.now, force, trial.then).after
-        trial.now[:] = trial.then
+        take_over(trial.now, trial.then)
         time += length
         left -= length
     set_time(contacts, time)
@@ -118,7 +117,7 @@ def _approach(
     return time, press_state(contacts, trial.now)
 
 
-@njit
+@njit_inner
 def _end_of_part(
     balls: Array, stops: Stops, ahead: int, time: float, finish: float, pace: float, full_step: float
 ) -> tuple[float, float]:
@@ -167,7 +166,7 @@ def _cross(
             set_time(contacts, target)
         elif changed > 0:
             change_unlocated(contacts, target, output)
-        now[:] = then
+        take_over(now, then)
         time = beyond
         if beyond > target:
             set_time(contacts, time)
@@ -219,20 +218,6 @@ def _march(
     return DONE
 
 
-def _step(
-    contacts: Contacts,
-    motion: MotionModel,
-    work: Workspace,
-    time: float,
-    step: float,
-    start: Array,
-    force: tuple[float, float],
-    end: Array,
-) -> int:
-    """The step of the method as a called function."""
-    return step_pasted(contacts, motion, work, time, step, start, force, end)
-
-
 def bind_method(name: str, step: Callable[..., int]) -> Callable[..., int]:
     """The march with `step` built in, compiled and cached under the method's `name`.
 
@@ -242,10 +227,10 @@ def bind_method(name: str, step: Callable[..., int]) -> Callable[..., int]:
     weights are of this length; a method need not use it. It returns how many balls contradict the contact set at a
     stage inside the step, or seem to, 0 if it does not look.
     """
-    called = specialise(_step, f"step_{name}_called", step_pasted=step)
-    attempting = specialise(_attempt, f"attempt_{name}", step_called=called)
-    approaching = specialise(_approach, f"approach_{name}", attempt=attempting)
-    crossing = specialise(_cross, f"cross_{name}", attempt=attempting, approach=approaching)
+    # The compiler optimises a part again with every kernel around it, so there are no more than needed.
+    attempting = specialise(_attempt, f"attempt_{name}", njit_part, step_pasted=step)
+    approaching = specialise(_approach, f"approach_{name}", njit_pasted, attempt=attempting)
+    crossing = specialise(_cross, f"cross_{name}", njit_part, attempt=attempting, approach=approaching)
     return specialise(_march, f"march_{name}", step_pasted=step, cross=crossing)
 
 

@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from physics._jit import njit
+from physics._jit import njit_inner, njit_part
 from physics.arrays import Array
 from physics.contact.contact_set import count_changes
 from physics.contact.forces import Contacts, press, set_time
@@ -59,7 +59,7 @@ class Free(NamedTuple):
     compliance: float
 
 
-@njit
+@njit_part
 def _free(motion: MotionModel, axis: int, load: float, step: float, start: Array, lead: Array) -> Free:
     """The linear part of one step along one axis; `lead` (6,) are the method's accelerations at its start."""
     share, inertia = 1.0 - ALPHA_F, 1.0 - ALPHA_M
@@ -95,7 +95,7 @@ def _free(motion: MotionModel, axis: int, load: float, step: float, start: Array
     )
 
 
-@njit
+@njit_inner
 def _pressed(contacts: Contacts, x: Free, y: Free, dx: float, dy: float, rate: float) -> tuple[float, float]:
     """Contact force (N, N) minus the force that the motion needs to be at the displacement (dx, dy), m."""
     away_x, away_y = dx - x.displacement, dy - y.displacement
@@ -103,7 +103,7 @@ def _pressed(contacts: Contacts, x: Free, y: Free, dx: float, dy: float, rate: f
     return force[0] + away_x / x.compliance, force[1] + away_y / y.compliance
 
 
-@njit
+@njit_inner
 def _meet(contacts: Contacts, x: Free, y: Free, rate: float, force: tuple[float, float]) -> tuple[float, float]:
     """Contact force (N, N) at the α-point by Newton's method from the guess `force`; not a number if none is found.
 
@@ -131,7 +131,7 @@ def _meet(contacts: Contacts, x: Free, y: Free, rate: float, force: tuple[float,
     return math.nan, math.nan
 
 
-@njit
+@njit_part
 def step_generalised_alpha(
     contacts: Contacts,
     motion: MotionModel,

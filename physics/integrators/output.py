@@ -86,7 +86,8 @@ def record(
             output.outer[1, sample, axis] = state[8 + axis]
             output.outer[2, sample, axis] = outer_ring_acceleration(motion, state, axis, net_force[axis])
     if output.state.shape[0] > 0:
-        output.state[sample] = state[:12]
+        for i in range(12):
+            output.state[sample, i] = state[i]
     if output.force.shape[0] > 0:
         for ball in range(output.force.shape[1]):
             output.force[sample, ball] = of_ball(balls, FORCE, ball)

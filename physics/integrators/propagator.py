@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from physics._jit import njit
+from physics._jit import njit, njit_inner
 from physics.arrays import Array
 from physics.motion import MotionModel
 
@@ -117,7 +117,7 @@ def set_step(series: PowerSeries, weights: Array, share: float) -> None:
             weights[axis, TO_4, row] = 2.0 * phi[2, row]
 
 
-@njit
+@njit_inner
 def _sum_matrix(power: Array, share: float, reach: float, total: Array) -> None:
     total[:] = 0.0
     weight, size = 1.0, 1.0
@@ -131,7 +131,7 @@ def _sum_matrix(power: Array, share: float, reach: float, total: Array) -> None:
             break
 
 
-@njit
+@njit_inner
 def _sum_phi(kick: Array, share: float, reach: float, phi: Array) -> None:
     """Rows m = 1 to 4 of `phi`: φm(share h0 L) b share h0 = Σ_j share^(j + 1) (h0 L)^j b h0 / (j + m)!"""
     phi[:] = 0.0

@@ -17,13 +17,13 @@ from physics.integrators.trial import Trial
 from physics.motion import MotionModel, outer_load, relative_acceleration
 
 
-@njit
+@njit_inner
 def press_state(contacts: Contacts, state: Array) -> tuple[float, float]:
     """Net force (N) of the contact set in `state` (12,)."""
     return press(contacts, state[0] - state[2], state[1] - state[3], state[6] - state[8], state[7] - state[9])
 
 
-@njit
+@njit_inner
 def find_contact(contacts: Contacts, state: Array, output: Output) -> tuple[float, float]:
     """Make the contact set, and the first one in `output`, what the `state` (12,) at t = 0 says; the net force (N)."""
     set_time(contacts, 0.0)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from physics._jit import njit_inline
 from physics.arrays import Array
 
 # No step is made over less than this share of the full one: times so near to each other differ by rounding alone.
@@ -27,3 +28,10 @@ class Trial(NamedTuple):
     then: Array
     after: tuple[float, float]
     halfway: int
+
+
+@njit_inline
+def take_over(now: Array, then: Array) -> None:
+    """Make `now` (n,) what `then` (n,) is. A slice set to another would bring along code that words why it can not."""
+    for i in range(now.size):
+        now[i] = then[i]

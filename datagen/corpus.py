@@ -11,6 +11,7 @@ simulated from and `dataset` everything; of many records `to_numpy` gives a vari
 from __future__ import annotations
 
 import json
+import warnings
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from functools import cached_property
@@ -215,7 +216,10 @@ class Corpus:
         table = self.labels
         record = table["record"].to_numpy()
         parted = StratifiedGroupKFold(count, shuffle=True, random_state=seed)
-        folds = parted.split(record, _as_words(table[stratify]), groups=table["bearing_id"])
+        with warnings.catch_warnings():
+            # What it warns of, fewer records of some value than folds, is no fault of the caller.
+            warnings.filterwarnings("ignore", "The least populated class", UserWarning)
+            folds = list(parted.split(record, _as_words(table[stratify]), groups=table["bearing_id"]))
         return ((record[train], record[test]) for train, test in folds)
 
     def _require_folds(self, count: int, stratify: str) -> None:

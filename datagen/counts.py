@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 
 def bytes_text(count: float) -> str:
     """A number of bytes in MB or GB, whichever suits it, with one decimal."""
@@ -11,6 +13,11 @@ def bytes_text(count: float) -> str:
 def counted(count: int, what: str, ending: str = "s") -> str:
     """A number of things, as "1 record" or "2 records"; `ending` makes more than one of `what`."""
     return f"{count} {what}" if count == 1 else f"{count} {what}{ending}"
+
+
+def by_value(counts: Mapping[str, int]) -> str:
+    """How often each value occurs, as "outer 3, (none) 2", where (none) is an empty text."""
+    return ", ".join(f"{value or '(none)'} {count}" for value, count in counts.items())
 
 
 def digits(value: float, count: int) -> str:

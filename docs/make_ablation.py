@@ -73,10 +73,15 @@ def corpus(out: Path, name: str, change: Callable[[Part], None], records: int) -
     """The corpus of the changed recipe."""
     recipe = tomllib.loads(find_recipe("transfer").read_text(encoding="utf-8"))
     change(recipe["part"][0])
+    return generated(out, name, recipe, "--limit", records)
+
+
+def generated(out: Path, name: str, recipe: dict[str, Any], *options: object) -> Path:
+    """The corpus of a recipe, beside its file in the folder of this name."""
     folder = out / "corpora" / name.replace(" ", "_")
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "recipe.toml").write_text(toml_text(recipe), encoding="utf-8")
-    spallgen("generate", folder / "recipe.toml", "--out", folder / "corpus", "--limit", records, "--workers", 1)
+    spallgen("generate", folder / "recipe.toml", "--out", folder / "corpus", *options, "--workers", 1)
     return folder / "corpus"
 
 

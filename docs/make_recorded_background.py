@@ -14,9 +14,8 @@ from copy import deepcopy
 from pathlib import Path
 from typing import Any
 
-from make_ablation import report, spallgen
+from make_ablation import generated, report
 
-from datagen.cards.toml_text import toml_text
 from datagen.recipes.recipe_files import find_recipe
 
 RATIO_DB = {"uniform": [-15, 25]}
@@ -65,11 +64,7 @@ def main(out: Path, records: int, file: Path, rate: float, channels: list[str], 
     with_recording(recorded, file.absolute(), rate, channels, records)
     named = {"drawn layers": recipe, "drawn layers at a ratio": at_ratio, "recording at a ratio": recorded}
     for name, data in named.items():
-        folder = out / "corpora" / name.replace(" ", "_")
-        folder.mkdir(parents=True, exist_ok=True)
-        (folder / "recipe.toml").write_text(toml_text(data), encoding="utf-8")
-        spallgen("generate", folder / "recipe.toml", "--out", folder / "corpus", "--workers", 1)
-        report(out, name, folder / "corpus", tests, records)
+        report(out, name, generated(out, name, data), tests, records)
 
 
 def command_line() -> argparse.Namespace:

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from datagen.cards.facts import Facts, Kind, Solved
 from datagen.corpus_files.format import IMPORTED
-from datagen.counts import bytes_text, digits
+from datagen.counts import by_value, bytes_text, digits
 from datagen.files.text_tables import markdown_table
 from labels.schema import LABEL, LABELS, UNKNOWN
 
@@ -63,7 +63,7 @@ def _holdings(facts: Facts) -> Iterable[str]:
     yield from _table(("condition", "location", "records", *splits), [*rows, total])
     yield from _asked(facts)
     others = {name: counts for name, counts in facts.info.counts.items() if name not in ("condition", "location")}
-    counted = [(f"`{name}`", _counts(counts)) for name, counts in others.items() if name != "split"]
+    counted = [(f"`{name}`", by_value(counts)) for name, counts in others.items() if name != "split"]
     yield from _table(("label", "records by value"), counted)
     yield f"![Counts and distributions of the labels]({OVERVIEW})\n"
 
@@ -75,10 +75,6 @@ def _asked(facts: Facts) -> Iterable[str]:
         yield f"The weights of the recipe ask for these of {facts.info.asked} records on average:\n"
         rows = [(name, f"{asked.get(name, 0.0):.1f}", made.get(name, 0)) for name in {**asked, **made}]
         yield from _table(("condition", "asked for", "made"), rows)
-
-
-def _counts(counts: Mapping[str, int]) -> str:
-    return ", ".join(f"{value or '(none)'} {count}" for value, count in counts.items())
 
 
 def _examples(facts: Facts, pictures: Mapping[int, str]) -> Iterable[str]:

@@ -43,7 +43,7 @@ def _is_section(value: Any) -> bool:
 
 
 def _key(key: str) -> str:
-    return key if key and all(sign.isalnum() or sign in "-_" for sign in key) and key.isascii() else json.dumps(key)
+    return key if key and all(sign.isalnum() or sign in "-_" for sign in key) and key.isascii() else _text(key)
 
 
 def _value(value: Any) -> str:
@@ -54,4 +54,10 @@ def _value(value: Any) -> str:
         return "[" + ", ".join(_value(held) for held in value) + "]"
     if isinstance(value, float):
         return repr(value)
-    return json.dumps(value, ensure_ascii=False)
+    return _text(value) if isinstance(value, str) else json.dumps(value)
+
+
+def _text(text: str) -> str:
+    """A text in quotes, escaped as in JSON but for two things: TOML has no escapes of halves of a letter, which JSON
+    makes of letters such as 😀, and no bare sign of deletion."""
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")

@@ -126,16 +126,18 @@ def made_with() -> dict[str, str]:
     return {RIVAL: "not installed"} | measured_on("numpy", "scipy", "numba", *rival)
 
 
+def errors_and_speeds(runs: Sequence[Run], name: str) -> list[tuple[float, float]]:
+    """Acceleration error and times real time of each run of a contestant that has a finite error."""
+    scored = [(run.score.acceleration, run.real_time) for run in runs if run.name == name and run.score is not None]
+    return [point for point in scored if math.isfinite(point[0])]
+
+
 def at_error(runs: Sequence[Run], name: str, error: float) -> float | None:
     """Times real time of a contestant at this acceleration error, interpolated on the logarithms; None if not reached.
 
     Where even its coarsest run is better, that run counts.
     """
-    points = sorted(
-        (run.score.acceleration, run.real_time)
-        for run in runs
-        if run.name == name and run.score is not None and math.isfinite(run.score.acceleration)
-    )
+    points = sorted(errors_and_speeds(runs, name))
     reached = [point for point in points if point[0] <= error]
     if not reached:
         return None
@@ -181,8 +183,8 @@ def _run(contestant: Contestant, subject: Subject, scene: Scene, reference: Resp
 
 
 def timed(contestant: Contestant, scene: Scene, rate: float, rounds: int) -> tuple[float, object]:
-    """Median processor time (s) of the rounds, or of more where these are short, and the result; what takes long is run
-    once.
+    """Median processor time (s) of the rounds, or of more where these are short, and the result; what takes half a
+    second or longer is run once.
 
     A first run pays for memory and code that only a whole record needs, so that it does not count where it is short.
     """
@@ -196,7 +198,7 @@ def timed(contestant: Contestant, scene: Scene, rate: float, rounds: int) -> tup
     if first >= SLOW_SECONDS:
         return first, result
     seconds: list[float] = []
-    while sum(seconds) < (SLOW_SECONDS if len(seconds) < rounds else LEAST_SECONDS):
+    while len(seconds) < rounds or sum(seconds) < LEAST_SECONDS:
         spent, result = once()
         seconds.append(spent)
     return statistics.median(seconds), result

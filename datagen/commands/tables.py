@@ -8,7 +8,7 @@ from rich.table import Table
 
 from datagen.corpus_files.format import IMPORTED
 from datagen.corpus_files.reading import AGAIN
-from datagen.counts import bytes_text, counted, digits
+from datagen.counts import by_value, bytes_text, counted, digits
 from labels.schema import UNKNOWN
 
 if TYPE_CHECKING:
@@ -78,7 +78,7 @@ def _counts(info: Info) -> Table:
     for name, counts in info.counts.items():
         if counts.keys() <= {UNKNOWN}:
             continue
-        table.add_row(name, ", ".join(f"{value or '(none)'} {count}" for value, count in counts.items()))
+        table.add_row(name, by_value(counts))
     nothing = [name for name, counts in info.counts.items() if counts.keys() == {UNKNOWN}]
     if nothing:
         table.add_row("unknown of all", ", ".join(nothing))

@@ -120,20 +120,27 @@ def read_index(folder: Path) -> pandas.DataFrame:
     texts = _columns(rows, path)
     kinds = COLUMN_TYPES | PLACE_TYPES
     table = pandas.DataFrame({name: _checked(name, texts[name], kind, path) for name, kind in kinds.items()})
-    _check_places(table, path)
+    _check_rows(table, path)
     return table.sort_values("record", ignore_index=True)
 
 
-def _check_places(table: pandas.DataFrame, path: Path) -> None:
-    """Raise BadInput unless every record is there once, at a place that a shard can have."""
-    wrong = {
-        "record": table["record"].duplicated(),
-        "shard": ~table["shard"].astype(str).str.fullmatch(SHARD_NAME),
-        "position": table["position"] < 0,
-    }
-    for column, rows in wrong.items():
+def _check_rows(table: pandas.DataFrame, path: Path) -> None:
+    """Raise BadInput unless every record is there once, at a place that a shard can have, with what every record has
+    and words of the closed lists."""
+    rules = [
+        ("record", ~(table["record"] >= 0), "is not a place in a corpus"),
+        ("record", table["record"].duplicated(), "occurs twice"),
+        ("shard", ~table["shard"].astype(str).str.fullmatch(SHARD_NAME), "is not a place in a corpus"),
+        ("position", ~(table["position"] >= 0), "is not a place in a corpus"),
+        *((name, ~(table[name] > 0.0), "is not above 0") for name in ("rate_hz", "duration_s")),
+        *(
+            (label.name, ~table[label.name].isin((*label.values, *label.imported)), "is none of its values")
+            for label in LABELS
+            if label.values is not None
+        ),
+    ]
+    for column, rows, problem in rules:
         if rows.any():
-            problem = "occurs twice" if column == "record" else "is not a place in a corpus"
             first = int(rows.to_numpy().argmax())
             raise _no_index(f"{column} = {table[column].iloc[first]} {problem}", path, first + 2)
 
@@ -179,4 +186,7 @@ def _typed(texts: tuple[str, ...], kind: str) -> NDArray[Any] | list[str]:
     if kind == "bool":
         values = [{"True": True, "False": False, "NaN": math.nan}[text] for text in texts]
         return np.array(values, dtype=object if unknown else np.bool_)
-    return np.array(texts, dtype=np.str_).astype("float64" if unknown else kind)
+    numbers = np.array(texts, dtype=np.str_).astype("float64" if unknown else kind)
+    if np.isinf(numbers).any():
+        raise ValueError("no label is infinite")
+    return numbers

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from matplotlib.figure import Figure
 
 from datagen.charts.contestants import METHOD, MODEL
-from datagen.charts.measure import TARGET, Chart, Run
+from datagen.charts.measure import TARGET, Chart, Run, errors_and_speeds
 from datagen.drawing.style import BLUE, GREEN, GREY, INK, ORANGE, PALE, PURPLE, SKY, VERMILLION, png_of
 from physics.integrators.method_table import MODAL
 from physics.integrators.rivals.general_purpose import BALL_BY_BALL
@@ -83,11 +83,7 @@ def _method(name: str) -> str:
 
 def _points(runs: Sequence[Run], name: str) -> list[tuple[float, float]]:
     """Times real time and error of each run of a name that has an error."""
-    found = []
-    for run in runs:
-        if run.name == name and run.score is not None and math.isfinite(run.score.acceleration):
-            found.append((run.real_time, run.score.acceleration))
-    return found
+    return [(speed, error) for error, speed in errors_and_speeds(runs, name)]
 
 
 def _on_panel(error: float) -> float:

@@ -34,8 +34,9 @@ def opened_atomically(path: Path) -> Iterator[BinaryIO]:
 
     Who may read the old one may read the new one, and nobody else.
     """
-    # A name that no other thread, process or computer has; mkstemp would hide the file from all but its owner.
-    temporary = path.with_name(f".{path.name}.{os.urandom(8).hex()}{TEMPORARY_SUFFIX}")
+    # A name that no other thread, process or computer has, and that is not too long where that of the file is not;
+    # mkstemp would hide the file from all but its owner.
+    temporary = path.with_name(f".{os.urandom(16).hex()}{TEMPORARY_SUFFIX}")
     try:
         with temporary.open("xb") as file:
             with suppress(OSError):  # a new file, or a file system without such rights

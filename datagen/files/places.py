@@ -23,25 +23,25 @@ def from_home(path: str | Path) -> Path:
     return Path(os.path.expanduser(path))
 
 
-def require_folder(folder: Path, field: str = OUT) -> None:
+def require_folder(folder: Path) -> None:
     """Raise BadInput if `folder` can neither be written into nor made."""
     try:
         os.lstat(folder)
     except (FileNotFoundError, NotADirectoryError):
         pass  # it is to be made, or what is in its way is found below
     except OSError as problem:
-        raise BadInput(problem.strerror or str(problem), field=field, value=str(folder)) from None
+        raise BadInput(problem.strerror or str(problem), field=OUT, value=str(folder)) from None
     nearest = next(path for path in (folder.absolute(), *folder.absolute().parents) if os.path.lexists(path))
     if not nearest.is_dir():
         raise BadInput(
             f"{nearest} is in the way: it is not a folder",
-            field=field,
+            field=OUT,
             value=str(folder),
             allowed="a new or existing folder",
         )
     if not is_writable(nearest):
         raise BadInput(
-            f"cannot write into {nearest}", field=field, value=str(folder), allowed="a folder that you may write into"
+            f"cannot write into {nearest}", field=OUT, value=str(folder), allowed="a folder that you may write into"
         )
 
 

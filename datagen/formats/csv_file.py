@@ -36,16 +36,24 @@ ROWS_ALIKE = (
 )
 
 
+# What text tables have where a sample is missing.
+EMPTY = ("", "nan", "na", "n/a", "null", "none", "-")
+Cell = tuple[int, str]
+
+
 class Columns(dict[str, Array]):
     """The columns of a table by name, NaN where a cell is no number: one is refused for them only where it is used.
 
-    `odd` holds line and text of the first cell of each column that is no finite number; `hint` is a closing remark for
-    messages where the table seems to have another layout, else empty.
+    `odd` holds line and text of the first cell of each column that is no finite number, `worded` those of the first one
+    that is not EMPTY either; `hint` is a closing remark for messages where the table seems to have another layout, else
+    empty.
     """
 
-    def __init__(self, columns: dict[str, Array], odd: dict[str, tuple[int, str]], hint: str = "") -> None:
+    def __init__(
+        self, columns: dict[str, Array], odd: dict[str, Cell], worded: dict[str, Cell] | None = None, hint: str = ""
+    ) -> None:
         super().__init__(columns)
-        self.odd, self.hint = odd, hint
+        self.odd, self.worded, self.hint = odd, worded or {}, hint
 
 
 def read_csv(path: Path, layout: CsvLayout) -> Columns:
@@ -103,7 +111,9 @@ def _clean_table(path: Path, layout: CsvLayout) -> Columns | None:
     table = table[:, :width]
     first = dict.fromkeys(words + [last] * is_empty, (line, cells)) | gaps
     odd = {names[column]: (where, row[column]) for column, (where, row) in first.items() if column < width}
-    return Columns(dict(zip(names, np.ascontiguousarray(table.T), strict=True)), odd, headless_hint(names, layout))
+    worded = {name: cell for name, cell in odd.items() if not _is_empty(cell[1])}
+    columns = dict(zip(names, np.ascontiguousarray(table.T), strict=True))
+    return Columns(columns, odd, worded, headless_hint(names, layout))
 
 
 def _loaded(
@@ -165,9 +175,13 @@ def _no_number(cell: str) -> float:
 def _number_or_nothing(cell: str) -> float:
     if not cell.strip():
         return math.nan
-    if not math.isfinite(number := float(cell)):
+    if not math.isfinite(found := number(cell)):
         raise ValueError(cell)
-    return number
+    return found
+
+
+def _is_empty(cell: str) -> bool:
+    return cell.strip().lower() in EMPTY
 
 
 def _nothing(cell: str) -> float:
@@ -221,13 +235,17 @@ def _columns(path: Path, layout: CsvLayout, rows: list[Row]) -> Columns:
             problem = f"{len(row)} cells, but the table has {len(names)} columns{hint or above_hint(whole, layout)}"
             raise BadInput(problem, f"{path}, line {line}", allowed="" if hint else ROWS_ALIKE)
     columns = {name: _numbers([row[place] for _, row in rows], layout.decimal) for place, name in enumerate(names)}
-    first = {name: int(np.argmin(np.isfinite(numbers))) for name, numbers in columns.items() if numbers.size}
-    odd = {
-        name: (rows[k][0], rows[k][1][names.index(name)])
-        for name, k in first.items()
-        if not math.isfinite(columns[name][k])
-    }
-    return Columns(columns, odd, cells_hint(rows, columns, odd, layout))
+    odd: dict[str, Cell] = {}
+    worded: dict[str, Cell] = {}
+    for name, numbers in columns.items():
+        place = names.index(name)
+        for k in np.flatnonzero(~np.isfinite(numbers)).tolist():
+            cell = rows[k][0], rows[k][1][place]
+            odd.setdefault(name, cell)
+            if not _is_empty(cell[1]):
+                worded[name] = cell
+                break
+    return Columns(columns, odd, worded, cells_hint(rows, columns, odd, layout))
 
 
 def _numbers(cells: list[str], decimal: str) -> Array:

@@ -9,8 +9,8 @@ from string import Formatter
 
 from datagen.errors import BadInput
 
-# A width or a number of decimals of more than three figures.
-WIDE = re.compile(r"\d{4}")
+# A width or a number of decimals of more than three figures, or one that another placeholder gives.
+WIDE = re.compile(r"\d{4}|\{")
 
 
 def filled(text: str, path: Path, field: str, more: Mapping[str, str] | None = None) -> str:

@@ -29,15 +29,13 @@ def remake_record(corpus: Corpus, record: int) -> Remade:
 
     What is kept of a response has a part in how it is marched.
     """
-    from datagen.records.record import make_record
+    from datagen.records.record import OPTIONAL_SIGNALS, make_record
     from datagen.scenarios.scenario_text import scenario_of
-    from labels.variables import SIGNALS
     from physics.outcome import SimulationFailed
     from physics.rms import relative_error
 
     stored = corpus.waveform(record).astype(np.float64)
-    optional = [signal.name for signal in SIGNALS if not signal.required(imported=False)]
-    kept = tuple(name for name in optional if corpus.has(record, name))
+    kept = tuple(name for name in OPTIONAL_SIGNALS if corpus.has(record, name))
     try:
         again = make_record(scenario_of(str(corpus.waveform(record, "scenario"))), kept).acceleration
     except (BadInput, SimulationFailed) as problem:

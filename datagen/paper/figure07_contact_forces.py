@@ -230,6 +230,11 @@ def draw(found: dict[str, Forces], gap: Forces) -> Figure:
     return figure
 
 
+def _shade(axes: Axes, forces: Forces) -> None:
+    """The time in which ball 6 is between the edges of the spall."""
+    axes.axvspan(forces.entry[BALL], forces.leave[BALL], color=GREY, alpha=0.1, linewidth=0, zorder=0)
+
+
 def _draw_balls(axes: Axes, forces: Forces, part: slice, row: int) -> None:
     for ball in BALLS:
         colour = COLOURS[ball]
@@ -237,7 +242,7 @@ def _draw_balls(axes: Axes, forces: Forces, part: slice, row: int) -> None:
         axes.plot(
             forces.time[part], forces.dynamic[part, row, ball - 1], color=colour, linewidth=0.8, label=f"ball {ball}"
         )
-    axes.axvspan(forces.entry[BALL], forces.leave[BALL], color=GREY, alpha=0.1, linewidth=0, zorder=0)
+    _shade(axes, forces)
     faint_grid(axes)
 
 
@@ -246,5 +251,5 @@ def _draw_net(axes: Axes, forces: Forces, part: slice) -> None:
         forces.time[part], forces.net[part, 1], color=ALONG, linewidth=0.9, label="net, along the load, less 346 N"
     )
     axes.plot(forces.time[part], forces.net[part, 0], color=ACROSS, linewidth=0.9, label="net, across the load")
-    axes.axvspan(forces.entry[BALL], forces.leave[BALL], color=GREY, alpha=0.1, linewidth=0, zorder=0)
+    _shade(axes, forces)
     faint_grid(axes)

@@ -10,6 +10,7 @@ from pydantic import Field, ValidationInfo, model_validator
 
 from datagen.errors import BadInput
 from datagen.files.csv_rows import read_csv_rows
+from datagen.files.number_texts import number
 from datagen.settings.table import Table, refuse
 
 COLUMNS = ("angle_deg", "depth_um")
@@ -79,10 +80,10 @@ def read_table(path: Path) -> dict[str, tuple[float, ...]]:
 
 
 def _numbers(path: Path, line: int, row: list[str]) -> tuple[float, float]:
-    try:
-        angle, depth = (float(cell) for cell in row)
-    except ValueError:
-        raise refuse(f"{path}, line {line}: {','.join(row)} is not two numbers") from None
+    found = [number(cell) for cell in row]
+    if len(found) != len(COLUMNS) or not all(map(math.isfinite, found)):
+        raise refuse(f"{path}, line {line}: {','.join(row)} is not two finite numbers")
+    angle, depth = found
     if depth < 0.0 or depth > DEEPEST_UM:
         raise refuse(f"{path}, line {line}: {_wrong_depth(depth)}")
     return angle, depth

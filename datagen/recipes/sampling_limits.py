@@ -146,9 +146,8 @@ def _unfit_recording(recipe: Recipe, background: BackgroundSettings, place: Loca
         allowed = f"signal.rate_hz = {recording.rate_hz:.12g}"
         yield Refusal((*place, "rate_hz"), problem, recording.rate_hz, allowed)
     elif rate.value != recording.rate_hz:
-        stated = ", ".join(f"{value:.12g}" for value in rate.stated())
         problem = f"{recording.file} is not sampled at the records' rate, and recordings are not resampled"
-        yield Refusal((*place, "rate_hz"), problem, recording.rate_hz, f"{stated} (signal.rate_hz)")
+        yield Refusal((*place, "rate_hz"), problem, recording.rate_hz, f"{rate.value:.12g} (signal.rate_hz)")
     elif recording.samples < round(longest * recording.rate_hz):
         seconds = recording.samples / recording.rate_hz
         problem = f"{recording.file} is {seconds:g} s long, a record {longest:g} s, and recordings are not repeated"

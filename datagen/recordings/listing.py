@@ -56,7 +56,7 @@ def list_requests(spec: Spec, root: Path) -> Listing:
         tables |= found.tables
         absent += found.absent
     if not requests:
-        raise BadInput(f"none of its files is below {root}", str(spec.source), "root", str(root))
+        raise BadInput(f"none of its files is below {root}, or all are left out", str(spec.source), "root", str(root))
     return Listing(tuple(requests), tables, tuple(absent))
 
 
@@ -98,8 +98,14 @@ def _refuse_two_speeds(settings: dict[str, Any], row: TableRow) -> None:
 
 
 def _channels(settings: dict[str, Any], place: str) -> tuple[Channel, ...]:
-    if "channel" in settings:
-        return tuple(settings["channel"])
-    if "x" not in settings and "y" not in settings:
-        raise BadInput("this setting is missing", place, "y", allowed="the name of the variable that holds the samples")
-    return (Channel(name=settings.get("channel_name", ""), x=settings.get("x"), y=settings.get("y")),)
+    channels = tuple(settings.get("channel", ()))
+    if not channels:
+        if "x" not in settings and "y" not in settings:
+            allowed = "the name of the variable that holds the samples"
+            raise BadInput("this setting is missing", place, "y", allowed=allowed)
+        channels = (Channel(name=settings.get("channel_name", ""), x=settings.get("x"), y=settings.get("y")),)
+    for channel in channels:
+        if channel.x == channel.y:
+            problem, allowed = "is the variable of the axis x too", "another one; of a sensor with one axis y alone"
+            raise BadInput(problem, place, "y", channel.y, allowed)
+    return channels

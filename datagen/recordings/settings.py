@@ -15,6 +15,7 @@ from labels.schema import CONDITIONS, LABEL, LOCATIONS, SPLITS, UNKNOWN
 UNITS = {"m/s2": 1.0, "g": 9.80665}
 # Units that a scale makes of these.
 SCALED_UNITS = {"mm/s2": ("m/s2", 1e-3), "cm/s2": ("m/s2", 1e-2), "mg": ("g", 1e-3)}
+VELOCITIES = ("m/s", "cm/s", "mm/s", "um/s", "in/s", "ips")
 Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
 # Longer than any recording, s.
 LONGEST_S = 1e9
@@ -27,11 +28,15 @@ FOLLOWS = "it follows from location and extent and can be left out: location say
 Name = Annotated[str, Field(min_length=1, max_length=120)]
 
 
-def _not_scaled(unit: object) -> object:
-    """The unit; raises PydanticCustomError that says how one that a scale makes of another is written."""
-    if isinstance(unit, str) and unit.casefold() in SCALED_UNITS:
-        whole, scale = SCALED_UNITS[unit.casefold()]
+def _of_acceleration(unit: object) -> object:
+    """The unit; raises PydanticCustomError for that of a velocity, and says how one is written that a scale makes of
+    another."""
+    word = unit.casefold() if isinstance(unit, str) else ""
+    if word in SCALED_UNITS:
+        whole, scale = SCALED_UNITS[word]
         raise refuse("is written with a scale", allowed=f'unit = "{whole}" and scale = {scale:g}')
+    if word in VELOCITIES:
+        raise refuse("is that of a velocity", allowed=f"acceleration in {' or '.join(UNITS)}: differentiate it before")
     return unit
 
 
@@ -116,7 +121,7 @@ class RecordingSettings(Table):
     """Name of that one channel."""
     rate_hz: Annotated[float | FromVariable, number("rate_hz")] | None = None
     """Sampling rate, Hz; a .wav file says it itself."""
-    unit: Annotated[str, BeforeValidator(_not_scaled), word(*UNITS, remark=VOLTS)] | None = None
+    unit: Annotated[str, BeforeValidator(_of_acceleration), word(*UNITS, remark=VOLTS)] | None = None
     """Unit of the samples times `scale`."""
     scale: Annotated[float | FromVariable, number("scale")] | None = None
     """What the stored numbers are multiplied by; 1 if not given."""

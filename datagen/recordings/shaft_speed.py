@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from datagen.counts import counted
 from datagen.errors import BadInput
 from datagen.recordings.pulse_times import pulse_times
 from datagen.recordings.pulses import MOST_MENDED, mended
@@ -23,6 +24,9 @@ from physics.angular_speed import RPM, RPM_PER_HZ
 
 RPM_PER_UNIT = {"speed_rpm": 1.0, "speed_hz": RPM_PER_HZ}
 FEWEST_PULSES = 3
+# What to look at where a channel, or a list of times, has fewer.
+LEVEL = "tach.threshold sets the level at which they are counted, and an angle that only grows shows none"
+TIMES_IN_S = "their times are in s: tach.factor = 1e-3 for ms, 1e-6 for us"
 # A shaft that stays this near (turns) to one that turns evenly is steady. If balls pass five times a turn, the fourth
 # harmonic of that then strays by two periods at most, and its line is hardly wider.
 STEADY_WITHIN = 0.1
@@ -182,10 +186,10 @@ def tach_speed(source: Source, tach: Tach, times: NDArray[np.float64], start: fl
     than 3."""
     inside = times[(times >= start) & (times < stop)]
     if inside.size < FEWEST_PULSES:
+        remark = TIMES_IN_S if tach.times else LEVEL
         raise BadInput(
-            f"{inside.size} pulses from {start:g} to {stop:g} s", str(source.path), "tach.variable", tach.variable,
-            f"at least {FEWEST_PULSES} pulses; tach.threshold sets the level at which they are counted, and an angle "
-            "that only grows shows none",
+            f"{counted(inside.size, 'pulse')} from {start:g} to {stop:g} s", str(source.path), "tach.variable",
+            tach.variable, f"at least {FEWEST_PULSES} pulses; {remark}",
         )  # fmt: skip
     speed = float((inside.size - 1) / (inside[-1] - inside[0]) / tach.pulses_per_rev * RPM_PER_HZ)
     if not in_range("speed_rpm", speed):

@@ -26,8 +26,6 @@ from physics.arrays import Array
 
 LONGEST_CELL = 40
 FILL = "fill"
-# What text tables have where a sample is missing.
-EMPTY = ("", "nan", "na", "n/a", "null", "none", "-")
 # Samples in a row, and the share of all, that may be missing and filled.
 LONGEST_GAP, MOST_MISSING = 10, 0.01
 # What cannot have a mean: several numbers are then those of several channels or bearings.
@@ -136,7 +134,7 @@ class Source:
         name, places = chosen(self.arrays, wish, self.path, field)
         if not isinstance(self.arrays, Columns) or places is not None:
             return True
-        return self.arrays.odd[name][1].strip().lower() in EMPTY
+        return name not in self.arrays.worded
 
     def missing(self, wish: str, field: str) -> NDArray[np.intp]:
         """Which samples of a variable are not finite numbers."""
@@ -145,9 +143,12 @@ class Source:
     def _not_finite(self, bad: NDArray[np.intp], size: int, wish: str, field: str, allowed: str) -> BadInput:
         name, places = chosen(self.arrays, wish, self.path, field)
         if isinstance(self.arrays, Columns) and places is None:
-            line, text = self.arrays.odd[name]
+            first = self.arrays.odd[name]
+            # Where gaps are to be filled, it is a text that is none which is wrong.
+            line, text = self.arrays.worded.get(name, first) if self.setting("missing_samples") == FILL else first
+            which = "the first is" if (line, text) == first else "one of them is"
             shown = json.dumps(text[:LONGEST_CELL], ensure_ascii=False)
-            problem = f"{bad.size} of {size} cells are not finite numbers, the first is {shown}{self.arrays.hint}"
+            problem = f"{bad.size} of {size} cells are not finite numbers, {which} {shown}{self.arrays.hint}"
             return BadInput(problem, f"{self.path}, line {line}", field, wish, allowed)
         if size == 1:
             return BadInput("is not a finite number", str(self.path), field, wish)

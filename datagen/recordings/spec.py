@@ -48,7 +48,8 @@ class Recording(RecordingSettings):
     note_columns: tuple[str, ...] = Field(default=(), strict=False)
     """Columns of the table that are kept as notes."""
     absent_files: Annotated[str, word("refuse", "skip")] = "refuse"
-    """What to do where a file of the table is not there."""
+    """What to do where a file of the table is not there, and where a pattern of `files`, `leave_out` or an override
+    fits none."""
     override: tuple[Override, ...] = Field(default=(), strict=False)
     """Exceptions for some of the files, in order; later ones go before earlier ones."""
 

@@ -6,7 +6,7 @@ import math
 from difflib import SequenceMatcher
 from typing import Annotated, Any
 
-from pydantic import AfterValidator, BeforeValidator, Field
+from pydantic import AfterValidator, BeforeValidator, Field, field_validator
 from pydantic_core import PydanticCustomError
 
 from datagen.recipes.operation_settings import FASTEST_RPM
@@ -45,6 +45,13 @@ class FromVariable(Table):
     """What it is multiplied by to have the unit of the setting."""
     times: bool = False
     """True for a sampling rate whose variable holds the times of the samples, s, or the one step between them."""
+
+    @field_validator("factor")
+    @classmethod
+    def _not_nothing(cls, factor: float) -> float:
+        if factor == 0.0:
+            raise PydanticCustomError("allowed", "allowed: {allowed}", {"allowed": "a number other than 0"})
+        return factor
 
 
 def number(name: str) -> BeforeValidator:

@@ -64,10 +64,10 @@ class Picker:
         """A number, divided by `per_unit` (how many of the setting's units make one SI unit)."""
         return float(self.value(setting)) / per_unit
 
-    def optional(self, setting: Distribution | None, per_unit: float = 1.0) -> float | None:
-        """A number as above, or None where the setting is not given."""
+    def optional(self, setting: Distribution | None) -> float | None:
+        """A number in the setting's own unit, or None where the setting is not given."""
         value = self.value(setting)
-        return None if value is None else float(value) / per_unit
+        return None if value is None else float(value)
 
     def word(self, setting: Distribution) -> str:
         """A word."""

@@ -105,7 +105,7 @@ class Scenario:
         """The defective race: none, outer or inner."""
         return self.scene.defective_race
 
-    def generator(self, purpose: str, item: int = 0) -> np.random.Generator:
+    def generator(self, purpose: str) -> np.random.Generator:
         """The stream of one purpose of this record, such as "white_noise"."""
         seeds = self.seeds
-        return stream(seeds.recipe, "record", seeds.record, purpose, seeds.record_attempt, item)
+        return stream(seeds.recipe, "record", seeds.record, purpose, seeds.record_attempt)

@@ -61,7 +61,7 @@ def _lines(text: str) -> dict[Location, int]:
 
 def _outside_long_texts(text: str) -> Iterator[tuple[int, str]]:
     inside = False
-    for number, line in enumerate(text.splitlines(), start=1):
+    for number, line in enumerate(text.split("\n"), start=1):  # the only end of a line that TOML has
         if not inside:
             yield number, line
         inside ^= (line.count('"""') + line.count("'''")) % 2 == 1

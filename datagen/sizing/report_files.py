@@ -10,21 +10,25 @@ from datagen.files.text_tables import csv_text
 from datagen.sizing.flat_rows import flat_row, flat_scores
 from datagen.sizing.size_scores import SizeScores
 
+PICTURE = "size_report.png"
 LISTS = ("candidates", "candidates_deg", "candidates_mm")
 
 
 def write_report(scores: SizeScores, folder: Path, picture: bytes | None) -> list[str]:
     """Write `size_report.json`, `estimates.csv` and, if there is a `picture`, `size_report.png` into `folder`.
 
-    Gives the names of what was written; BadInput if it cannot be.
+    Without one, that of an earlier report there is deleted: it would show other sizes. Gives the names of what was
+    written; BadInput if it cannot be.
     """
     files = {
         "size_report.json": plain_json(flat_scores(scores)).encode(),
         "estimates.csv": estimates_csv(scores).encode(),
     }
     if picture is not None:
-        files["size_report.png"] = picture
+        files[PICTURE] = picture
     write_results(folder, files)
+    if picture is None:
+        (folder / PICTURE).unlink(missing_ok=True)
     return list(files)
 
 

@@ -191,6 +191,13 @@ def test_folds_keep_the_records_of_a_bearing_together_and_use_each_record_once(c
     assert sorted(tested) == list(range(14))
 
 
+@pytest.mark.filterwarnings("error")
+def test_folds_warn_of_nothing_that_was_not_asked_for(corpus: Corpus) -> None:
+    alone = Corpus(corpus.folder)
+    alone.labels["spalls"] = [1] + [0] * 13
+    assert len(list(alone.folds(3, "spalls"))) == 3
+
+
 def test_folds_follow_from_their_seed(corpus: Corpus) -> None:
     zero, again, one = ([test.tolist() for _, test in corpus.folds(3, seed=seed)] for seed in (0, 0, 1))
     assert zero == again

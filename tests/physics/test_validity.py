@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 from scipy.optimize import fsolve
 
+from labels.description import label_values
 from physics.cage import CagePath
 from physics.catalog import rig
 from physics.imperfections import Imperfections
@@ -267,6 +268,14 @@ def test_an_edge_without_taper_is_out_of_range(gearbox):
     assert not [note for note in assess(scene_of(dry, (line(2.0, 0.0, 0.3),))) if "film" in note]
     gap = dataclasses.replace(line(2.0, 0.0, 0.0), depth=3e-4, profile="ball_path")
     assert not [note for note in assess(scene_of(gearbox, (gap,))) if "film" in note]
+
+
+def test_the_label_can_be_parted_into_its_notes_again(gearbox):
+    steep = dataclasses.replace(gearbox.bearing, contact_angle=math.radians(40))
+    scene = scene_of(dataclasses.replace(gearbox, bearing=steep), (line(2.0, 0.0, 0.0),), speed=20000 * RPM)
+    notes = assess(scene)
+    assert len(notes) >= 4
+    assert tuple(label_values(scene)["validity"].split("; ")) == notes
 
 
 def test_a_bearing_turned_faster_than_grease_allows_is_noted(gearbox):

@@ -113,6 +113,7 @@ def test_the_recipe_in_the_card_makes_the_same_corpus(tiny_corpus: Path, tiny: R
 def test_toml_text_is_read_back_as_the_same_data() -> None:
     data = {
         "name": 'quo"te\nline', "number": 0.1, "whole": 3, "truth": True, "list": [1.5, "a"], "odd key": 1,
+        "😀": "\x7f",
         "small": {"choice": ["a", "b"]}, "deep": {"inner": {"x": {"uniform": [1.0, 2.0]}}},
         "part": [{"name": "one", "machine": {"rig": "fan"}, "defect": {"line": {"a": {"b": 1}}}}, {"name": "two"}],
     }  # fmt: skip

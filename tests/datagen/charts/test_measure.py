@@ -59,6 +59,15 @@ def test_what_is_timed_has_been_run_whole_before_unless_that_is_slow(monkeypatch
     assert durations == [0.5] * 5
 
 
+def test_every_round_that_is_asked_for_is_run(monkeypatch):
+    durations = []
+    clock = (0.3 * ((k + 1) // 2) for k in range(20))
+    monkeypatch.setattr(measuring.time, "process_time", lambda: next(clock))
+    one = entrants.Contestant("g", "n", "s", lambda scene, rate: durations.append(scene.duration), lambda *_: None)
+    measuring.timed(one, reference_scene("F1", 0.5), RATE, rounds=5)
+    assert durations == [0.5] * (1 + 5)
+
+
 def test_what_is_short_is_repeated_until_a_tenth_of_a_second_is_spent(monkeypatch):
     durations = []
     clock = (0.03 * ((k + 1) // 2) for k in range(20))

@@ -28,6 +28,11 @@ from datagen.files.atomic import (
 ROOT = Path(__file__).parents[3]
 
 
+def test_a_file_may_have_the_longest_name_there_is(tmp_path: Path) -> None:
+    write_file(tmp_path / f"{'x' * 250}.json", b"new", "--json")
+    assert [path.read_bytes() for path in tmp_path.iterdir()] == [b"new"]
+
+
 def test_a_file_written_atomically_replaces_the_old_one_and_leaves_nothing_beside_it(tmp_path: Path) -> None:
     write_atomically(tmp_path / "a", b"old")
     write_atomically(tmp_path / "a", b"new")

@@ -245,6 +245,12 @@ def test_a_name_or_a_date_is_no_number_though_python_reads_one(tmp_path: Path) -
     assert table["a"].tolist() == [1.5, -2.0]
 
 
+@pytest.mark.parametrize("rows", ["1,,3\n2,105_2,4\n", "1,2,3\n2,,4\n3,105_2,5\n"])
+def test_a_name_below_a_gap_is_no_number_either(rows: str, tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text(f"a,b,c\n{rows}")
+    assert np.isnan(read_arrays(tmp_path / "a.csv", None, PLAIN)["b"][-1])
+
+
 def test_the_arrays_of_a_file_are_read_when_they_are_asked_for_and_once(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

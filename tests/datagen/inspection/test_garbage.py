@@ -137,6 +137,10 @@ INDICES = {
         "shard = ../x.nc is not a place",
     ),
     "a place before the first": (lambda text: text.replace(".nc,0", ".nc,-1", 1), "position = -1 is not a place"),
+    "no place": (lambda text: text.replace(".nc,0", ".nc,NaN", 1), "position = nan is not a place"),
+    "no record": (lambda text: text.replace("\n4,", "\nNaN,", 1), "line 6: not the index of a corpus: record = nan is"),
+    "an infinite number": (lambda text: text.replace("420.0", "inf", 1), 'speed_rpm = "inf" is not a number'),
+    "another word": (lambda text: text.replace(",healthy,", ",well,", 1), "condition = well is none of its values"),
     "bytes": (lambda text: text.replace("gearbox", "\xff", 1), "not a table of text"),
 }
 

@@ -40,6 +40,14 @@ def test_what_is_damaged_is_mended_and_what_is_missing_is_finished(
     assert remedy(manifest(), tmp_path, state) == advice
 
 
+@pytest.mark.parametrize("damaged", [(), ("there.nc",)])
+def test_nothing_is_deleted_while_a_run_is_writing(damaged: tuple[str, ...], tmp_path: Path) -> None:
+    (tmp_path / "there.nc").touch()
+    advice = remedy(manifest(), tmp_path, State(damaged, True, 2, held=True))
+    assert advice.startswith("a run is writing into this folder")
+    assert "delete" not in advice
+
+
 def test_a_corpus_of_another_version_is_mended_by_that(tmp_path: Path) -> None:
     advice = remedy(manifest(program="p" * 16), tmp_path, State((), True, 0, held=False))
     assert advice == f"{MENDED}{AGAIN}{tmp_path}, by the version of spallgen that made it"

@@ -66,6 +66,14 @@ def test_text_in_a_table_is_no_gap(bring: Bring, tmp_path: Path) -> None:
     assert bring(spec, "filled").waveform(0).shape == (2001, 1)
 
 
+def test_text_behind_a_gap_is_no_gap_either(bring: Bring, tmp_path: Path) -> None:
+    cells = [f"{value:.3f}" for value in np.random.default_rng(1).standard_normal(2000)]
+    rows = [f"{cell},1" for cell in [*cells[:50], "", *cells[50:60], "stop", *cells[60:]]]
+    (tmp_path / "a.csv").write_text("\n".join(["sig,b", *rows]))
+    with pytest.raises(BadInput, match=r'line 63: y = "sig": 2 of 2002 cells .* one of them is "stop"'):
+        bring(GAPS.replace("*.mat", "a.csv") + 'missing_samples = "fill"\n')
+
+
 BLANK = 'y = "sig": 3 of 2003 cells are not finite numbers, the first is ""; allowed: finite numbers, or missing'
 
 

@@ -55,6 +55,12 @@ def test_a_name_that_is_taken_comes_with_a_way_out(bring: Bring) -> None:
         bring(SPEC)
 
 
+@pytest.mark.parametrize("wish", ["{stem:1000}", "{stem:{number}}"])
+def test_a_width_without_bounds_is_refused(wish: str) -> None:
+    with pytest.raises(BadInput, match="a width in braces"):
+        filled(wish, Path("99999999999.csv"), "recording")
+
+
 def test_figures_alone_are_no_ending(bring: Bring, tmp_path: Path) -> None:
     for second in ("24", "54"):
         samples = np.random.default_rng(int(second)).standard_normal(40)

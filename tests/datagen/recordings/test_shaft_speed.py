@@ -38,6 +38,13 @@ def test_three_pulses_are_the_fewest_that_give_a_speed() -> None:
         tach_speed(source, tach, times[:2], 0.0, 1.0)
 
 
+def test_times_of_pulses_in_another_unit_than_s_come_with_the_factor_that_makes_s_of_them() -> None:
+    source: Any = SimpleNamespace(path="made-up")
+    tach, times = Tach(variable="tacho", times=True), np.array([0.3, 40_541.0, 81_081.0])
+    with pytest.raises(BadInput, match=r"1 pulse from 0 to 4 s; .*in s: tach\.factor = 1e-3 for ms, 1e-6"):
+        tach_speed(source, tach, times, 0.0, 4.0)
+
+
 def test_a_piece_has_the_mean_of_its_own_part_of_a_speed_channel(bring: Bring, mat: Mat) -> None:
     mat("a.mat", rpm=np.concatenate([np.full(33, 600.0), np.full(33, 900.0), np.full(33, 1200.0)]))
     common = '[[recording]]\nname = "all"\nfiles = "a.mat"\nunit = "g"\nrate_hz = 1000\ny = "sig"\n'
@@ -408,7 +415,7 @@ def test_a_list_of_the_times_of_pulses_needs_to_be_told_and_an_angle_is_no_tach(
     with pytest.raises(BadInput, match=r"holds 19 samples, the vibration 400; .*, or tach\.times = true if these are"):
         bring(TACH)
     mat("a.mat", tacho=np.arange(400) * 0.3)
-    with pytest.raises(BadInput, match=r"1 pulses from 0 to 0\.4 s; .*, and an angle that only grows shows none"):
+    with pytest.raises(BadInput, match=r"1 pulse from 0 to 0\.4 s; .*, and an angle that only grows shows none"):
         bring(TACH)
 
 

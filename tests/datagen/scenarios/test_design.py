@@ -71,6 +71,17 @@ def test_the_strata_of_different_settings_are_shuffled_apart() -> None:
     assert np.all(np.abs(correlation) < 0.5)  # four standard deviations, 1/√63 each
 
 
+@pytest.mark.parametrize("kind", DESIGNS)
+def test_the_spalls_of_the_machines_of_a_later_part_are_stratified_among_themselves(kind: str) -> None:
+    defect = {"condition": "line", "extent_deg": {"uniform": [1, 3]}, "depth_um": 10, "drawn_for": "machine"}
+    first = {"name": "first", "records": 3, "machine": MACHINE}
+    later = first | {"name": "later", "records": 32, "records_per_machine": 2, "design": kind, "defect": defect}
+    content = {"name": "r", "seed": 11, "signal": {"rate_hz": 65536, "duration_s": 0.05}, "part": [first, later]}
+    scenarios = draw_all(parse_recipe(content, Path("recipe.toml")))[3:]
+    extents = np.degrees([scenario.scene.spalls[0].extent for scenario in scenarios[::2]])
+    assert sorted(np.floor((extents - 1.0) / 2.0 * 16).astype(int)) == list(range(16))
+
+
 def test_machines_and_records_are_stratified_each_among_themselves() -> None:
     scenarios = draw_all(recipe_of("sobol", 128, records_per_machine=4))
     numbers = unit_cube(scenarios)

@@ -49,3 +49,7 @@ def test_a_setting_or_its_innermost_table_is_found_on_its_line(
     location: tuple[str | int, ...], line: int | None
 ) -> None:
     assert line_of(TEXT, location) == line
+
+
+def test_signs_that_other_texts_end_lines_with_end_none() -> None:
+    assert line_of("# a\u2028b\u0085c\nseed = 4\n", ("seed",)) == 2

@@ -6,13 +6,14 @@ import json
 import math
 from collections.abc import Callable
 from dataclasses import fields
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from datagen.files.plain import plain_json
 from datagen.sizing.flat_rows import flat_row, flat_scores
-from datagen.sizing.report_files import estimates_csv
+from datagen.sizing.report_files import estimates_csv, write_report
 from datagen.sizing.scored_record import ScoredRecord
 from datagen.sizing.size_scores import SizeScores
 from labels.event_scores import EventScores
@@ -36,6 +37,15 @@ def test_names_and_their_order_are_those_that_others_rely_on(scored: Callable[..
     assert list(report) == [field.name for field in fields(SizeScores)]
     assert (report["folder"], report["load_given"]) == ("x", 1)
     assert list(report["records"][0]) == IN_JSON
+
+
+def test_a_report_without_a_picture_does_not_keep_that_of_an_earlier_one(
+    scored: Callable[..., ScoredRecord], tmp_path: Path
+) -> None:
+    scores = SizeScores("x", "spallgen", "all", True, [scored()], None, [], None, 1)
+    for picture in (b"picture", None):
+        written = write_report(scores, tmp_path, picture)
+        assert sorted(path.name for path in tmp_path.iterdir()) == sorted(written)
 
 
 def test_truth_and_what_was_answered_keep_their_own_names(scored: Callable[..., ScoredRecord]) -> None:

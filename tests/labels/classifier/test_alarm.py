@@ -93,14 +93,15 @@ def test_few_rows_like_noise_leave_one_alarm_for_all():
     assert alarm.in_clear >= alarm.in_noise * (1.0 - 1e-9)  # up to rounding
 
 
+@pytest.mark.parametrize(("share", "passing"), [(0.1, 4), (0.07, 2)])  # of 40 records: 2.8 are not 3
 @pytest.mark.parametrize("kurtosis", [CLEAR, NOISE_LIKE**0.5 * CLEAR**0.5], ids=["clear", "half clear"])
-def test_of_few_clear_records_exactly_the_share_passes(kurtosis):
+def test_of_few_clear_records_exactly_the_share_passes_and_no_more(kurtosis, share, passing):
     level = np.concatenate([np.linspace(-3.0, 3.0, 40), np.linspace(-1.0, 0.0, 40)])
     noisy = np.arange(80) >= 40
     probability = 1.0 / (1.0 + np.exp(-level))
     table = rows(np.where(noisy, 0.0, kurtosis))
-    alarm = fit_alarm(probability, table, np.arange(80) % 40, noisy, ONE_AXIS[:80], 0.1)
-    assert np.sum((level > logit(alarm.at(table)) + 1e-9) & ~noisy) == 4  # up to rounding
+    alarm = fit_alarm(probability, table, np.arange(80) % 40, noisy, ONE_AXIS[:80], share)
+    assert np.sum((level > logit(alarm.at(table)) + 1e-9) & ~noisy) == passing  # up to rounding
 
 
 def test_lines_as_high_as_few_healthy_records_have_are_an_alarm_by_themselves():

@@ -134,6 +134,13 @@ def test_passing_balls_and_higher_harmonics_show_a_turning_shaft_too(order, harm
     assert found(noise + passing).evidence > TURNING_EVIDENCE
 
 
+def test_of_a_shaft_six_harmonics_show_that_it_turns():
+    known = bearing_kinematics(16, 71.5e-3, 8.407e-3, 0.2648, 35.0)  # 175 and 210 Hz are not of the mains
+    noise = 5e-3 * np.random.default_rng(0).standard_normal(TIME.size)
+    turning = sum(5e-3 * np.cos(2.0 * np.pi * 35.0 * k * TIME) for k in (5, 6))
+    assert found(noise + turning, known=known).evidence > TURNING_EVIDENCE
+
+
 @pytest.mark.parametrize(("velocity", "reason"), [(0.0709e-3, STOPPED), (0.0711e-3, "")])
 def test_a_tenth_of_the_limit_of_zone_a_is_a_machine_that_shakes(velocity, reason):
     # ISO 10816-1, class I: 0.71 mm/s.
@@ -159,6 +166,19 @@ def test_white_noise_of_fewer_than_two_digits_is_the_recorders(digits, reason):
 def test_fifteen_turns_without_a_line_are_enough(turns, reason):
     known = bearing_kinematics(16, 71.5e-3, 8.407e-3, 0.2648, 2.0 * turns)  # in half a second
     assert found(5e-3 * np.random.default_rng(0).standard_normal(TIME.size // 2), known=known).reason == reason
+
+
+def test_a_twenty_fourth_of_the_band_that_is_louder_colours_the_floor():
+    spectrum = np.fft.rfft(np.random.default_rng(5).standard_normal(TIME.size))
+    first, last = (int(9_500 * (0.1 + 0.7 * k / 24)) for k in (12, 13))
+    spectrum[first:last] *= 10.0
+    # One of 24 levels is a hundredfold: the logarithm of their mean less the mean of their logarithms.
+    expected = 10.0 * np.log10((23.0 + 100.0) / 24.0) - 20.0 / 24.0
+    assert found(np.fft.irfft(spectrum, TIME.size)).colour == pytest.approx(expected, abs=0.3)
+
+
+def test_a_floor_that_is_nothing_at_all_has_a_finite_colour():
+    assert np.isfinite(found(np.tile([1.0, -1.0], 8192)).colour)
 
 
 def test_what_a_recorder_does_not_let_through_is_no_colour():

@@ -62,6 +62,13 @@ def test_votes_are_raised_by_what_lifts_the_highest_fifth():
     assert raised(np.empty((0, 1)), owner[:0], axis[:0]) == 0.0
 
 
+def test_a_fifth_of_six_records_is_two():
+    # Axes 3 apart raise a vote of 2 : 1 by 0.5, and those of the highest record, which say the same, by nothing.
+    level = np.array([9.0, 9.0, *np.ravel([[k - 1.5, k + 1.5] for k in range(5)])])[:, None]
+    owner, axis = np.repeat(np.arange(6), 2), np.tile([0, 1], 6)
+    assert raised(level, owner, axis) == pytest.approx((0.0 + 0.5) / 2.0)
+
+
 def test_a_vote_is_raised_by_the_column_that_is_highest_in_it():
     owner, axis = np.array([0, 0]), np.array([0, 1])
     level = np.array([[0.0, 6.0], [3.0, 0.0]])  # axis 0 counts twice: (1, 4), where plain means are (1.5, 3)

@@ -222,6 +222,28 @@ def test_what_only_one_band_shows_is_a_candidate_too_to_a_fraction_of_a_sample(c
     assert np.abs(candidate_places(replace(mean, energy=energy)) - 30.3).min() < 0.1
 
 
+def test_the_ends_of_a_rumble_that_only_one_band_shows_are_no_candidates_and_its_middle_is():
+    energy = np.ones((4, 881))
+    energy[Channel.LOW] = mean_of_steps(-60, 20).energy[Channel.LOW]
+    places = candidate_places(replace(mean_of_steps(-60, 20), energy=energy))
+    assert np.abs(places + 20).min() < 1.5
+    assert min(np.abs(places - 20).min(), np.abs(places + 60).min()) > 5.0
+
+
+def test_what_is_more_than_half_a_pass_off_hides_no_candidate():
+    mean = mean_of_steps(-60, 20)
+    loud = np.where(np.abs(mean.offset - 300) < 3, 1e9, mean.energy)
+    assert candidate_places(replace(mean, energy=loud)) == pytest.approx(candidate_places(mean), abs=0.1)
+
+
+def test_of_peaks_that_all_stand_out_the_eighteen_highest_are_candidates():
+    mean, place = mean_of_steps(500, 600), np.arange(-180, 181, 18)
+    height = -3.5 * np.random.default_rng(2).permutation(place.size) / place.size
+    peaks = np.exp(height - 0.5 * ((mean.offset[:, None] - place) / 2.0) ** 2).sum(axis=1)
+    found = candidate_places(replace(mean, energy=np.tile(peaks, (4, 1))))
+    assert found == pytest.approx(np.sort(place[np.argsort(-height)[:18]]), abs=0.5)
+
+
 def test_both_ends_of_a_rumble_are_candidates():
     places = candidate_places(mean_of_steps(-60, 20))
     # The least blur puts an edge one sample inside the rumble, a coarser one further.
@@ -331,6 +353,25 @@ def test_a_pass_that_shows_the_first_of_two_events_alone_is_lined_up_with_the_ot
     place = 800.0 + 1600.0 * np.arange(20)
     away = lined_up(place, place, np.where(np.arange(20) % 3 == 1, 0.0, 0.8)) - place
     assert np.abs(away - away.mean()).max() < 0.5
+
+
+@pytest.mark.parametrize(("passes", "enough"), [(2, False), (3, True)])
+def test_three_passes_are_enough_to_line_up(passes, enough):
+    pattern, nominal = np.eye(CELLS)[CELLS // 2], 800.0 + 1600.0 * np.arange(passes)
+    energy = np.zeros(1600 * passes)
+    energy[nominal.astype(int)] = 1.0
+    found = aligned(energy, RATE, PassTrack(nominal / RATE, 1600 / RATE, pattern, 1.0))
+    assert (found is not None) == enough
+    assert not enough or found.place == pytest.approx(nominal, abs=1e-6)
+
+
+def test_a_little_louder_event_far_from_where_it_is_expected_moves_no_pass():
+    nominal, pattern = 800.0 + 1600.0 * np.arange(20), np.eye(CELLS)[CELLS // 2]
+    energy = np.zeros(1600 * nominal.size)
+    energy[nominal.astype(int)] = 1.0
+    energy[nominal[::5].astype(int) - 28] = 1.02**2  # up to 32 samples are searched
+    found = aligned(energy, RATE, PassTrack(nominal / RATE, 1600 / RATE, pattern, 1.0))
+    assert found.place == pytest.approx(nominal, abs=0.1)
 
 
 def test_prewhitened_noise_is_told_in_units_of_its_median_size():

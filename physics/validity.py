@@ -206,11 +206,11 @@ def _load(scene: Scene, peak: float) -> str:
 
 
 def _contact_angle(scene: Scene) -> str:
-    angle = math.degrees(scene.rig.bearing.contact_angle)
-    if angle == 0.0:
+    angle = scene.rig.bearing.contact_angle
+    if math.sin(angle) <= NEGLIGIBLE_SHARE:  # the axial part of the force on every ball
         return ""
     return (
-        f"the contact angle of {angle:.4g} degrees enters only as a factor {math.cos(math.radians(angle)):.4g} on "
+        f"the contact angle of {math.degrees(angle):.4g} degrees enters only as a factor {math.cos(angle):.4g} on "
         "deflection and force: axial motion and its change under load are left out"
     )
 

@@ -336,3 +336,9 @@ def test_a_preload_or_an_oversized_ball_that_dents_the_races_is_noted(gearbox):
 def test_a_contact_angle_is_noted_with_its_cosine():
     (note,) = assess(scene_of(rig("ims")))
     assert note.startswith("the contact angle of 15.17 degrees enters only as a factor 0.9652 on deflection and force")
+
+
+def test_a_contact_angle_is_noted_where_a_fifth_of_the_force_on_a_ball_is_axial(gearbox):
+    for share, notes in ((0.0, 0), (0.199, 0), (0.201, 1)):
+        bearing = dataclasses.replace(gearbox.bearing, contact_angle=math.asin(share))
+        assert len(assess(scene_of(dataclasses.replace(gearbox, bearing=bearing)))) == notes

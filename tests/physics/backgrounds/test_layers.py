@@ -175,6 +175,21 @@ def test_a_single_knock_is_a_decaying_sine_from_an_instant_between_two_samples()
     assert signal == pytest.approx(expected, abs=1e-10)  # rounding grows along the recursion
 
 
+def test_knocks_that_begin_between_the_same_two_samples_or_behind_the_last_add_up():
+    samples, density = 64, 10_000.0
+    signal = impulses(np.random.default_rng(0), Impulses(density, 2.0, 0.0, (Resonance(700.0, 0.03),)), samples, RATE)
+    generator = np.random.default_rng(0)
+    start = samples / RATE * generator.random(generator.poisson(density * samples / RATE))
+    generator.standard_normal(start.size)
+    direction = 2.0 * math.pi * generator.random(start.size)
+    first = np.ceil(start * RATE)
+    assert np.unique(first).size < start.size
+    assert first.max() == samples
+    turn = 2.0 * np.pi * 700.0 * np.maximum(np.arange(samples)[:, None] / RATE - start, 0.0)
+    expected = 2.0 * np.exp(-0.03 * turn) * np.sin(turn) @ np.column_stack([np.cos(direction), np.sin(direction)])
+    assert signal == pytest.approx(expected, abs=1e-10)  # rounding grows along the recursion
+
+
 def test_knocks_come_at_their_rate_with_their_median_height():
     rate = 4.0 * RATE
     layer = Impulses(10.0, 2.0, 0.7, (Resonance(1000.0, 0.7),))

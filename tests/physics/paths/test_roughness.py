@@ -51,6 +51,15 @@ def test_a_contact_of_next_to_no_load_feels_no_more_steps_than_there_may_be(gear
     assert np.array_equal(one, other)
 
 
+def test_a_contact_of_next_to_no_load_is_felt_as_one_of_eight_of_the_shortest_steps(gearbox):
+    power = np.mean([np.abs(np.fft.rfft(draw(gearbox, seed, width=1e-9))) ** 2 for seed in range(10)], axis=0)
+    waves = 8 * np.fft.rfftfreq(MOST_STEPS + 1)  # in that width
+    assert power[waves > 2.5].sum() < 1e-4 * power.sum()
+    # Under the gain 2^−(1.66 k)² half the power lies below k = 0.4769 / (1.66 √(2 ln 2)), as erf(0.4769) = 1/2.
+    half = 0.4769 / (1.66 * math.sqrt(2.0 * math.log(2.0)))
+    assert power[waves < half].sum() / power.sum() == pytest.approx(0.5, abs=0.017)  # four sampling deviations
+
+
 def test_the_filter_has_no_phase_and_halves_waves_of_1_66_contact_widths_as_a_moving_average_does():
     count, step = 8300, WIDTH / 8  # 625 waves in 8300 steps of an eighth of the width: 1.66 widths each
     position = step * np.arange(count)
@@ -118,6 +127,12 @@ def test_the_unfiltered_step_is_an_eighth_of_the_gap_into_which_a_ball_sags_by_t
     step = EXTENT * gearbox.bearing.raceway_radius("outer") / (values.size - 1)
     assert gap / 8 * 0.99 < step <= gap / 8
     assert resolved_width(gearbox.bearing, 1e-9) == pytest.approx(80e-6)
+
+
+def test_without_a_contact_width_a_long_spall_has_as_many_steps_as_the_shortest_step_asks_for(gearbox):
+    large = dataclasses.replace(gearbox.bearing, pitch_diameter=0.2)
+    values = draw_roughness(np.random.default_rng(0), large, "outer", math.pi, 1e-9, None)
+    assert len(values) - 1 == math.ceil(math.pi * large.raceway_radius("outer") / 10e-6) > MOST_STEPS
 
 
 def test_no_deviation_means_a_smooth_floor_and_draws_nothing(gearbox):

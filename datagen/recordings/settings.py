@@ -31,11 +31,11 @@ Name = Annotated[str, Field(min_length=1, max_length=120)]
 def _of_acceleration(unit: object) -> object:
     """The unit; raises PydanticCustomError for that of a velocity, and says how one is written that a scale makes of
     another."""
-    word = unit.casefold() if isinstance(unit, str) else ""
-    if word in SCALED_UNITS:
-        whole, scale = SCALED_UNITS[word]
+    name = unit.casefold() if isinstance(unit, str) else ""
+    if name in SCALED_UNITS:
+        whole, scale = SCALED_UNITS[name]
         raise refuse("is written with a scale", allowed=f'unit = "{whole}" and scale = {scale:g}')
-    if word in VELOCITIES:
+    if name in VELOCITIES:
         raise refuse("is that of a velocity", allowed=f"acceleration in {' or '.join(UNITS)}: differentiate it before")
     return unit
 

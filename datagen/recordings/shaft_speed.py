@@ -26,7 +26,7 @@ RPM_PER_UNIT = {"speed_rpm": 1.0, "speed_hz": RPM_PER_HZ}
 FEWEST_PULSES = 3
 # What to look at where a channel, or a list of times, has fewer.
 LEVEL = "tach.threshold sets the level at which they are counted, and an angle that only grows shows none"
-TIMES_IN_S = "their times are in s: tach.factor = 1e-3 for ms, 1e-6 for us"
+TIMES_IN_S = "times are taken to be in s: tach.factor = 1e-3 for ms, 1e-6 for us"
 # A shaft that stays this near (turns) to one that turns evenly is steady. If balls pass five times a turn, the fourth
 # harmonic of that then strays by two periods at most, and its line is hardly wider.
 STEADY_WITHIN = 0.1

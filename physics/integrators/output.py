@@ -8,6 +8,7 @@ from physics._jit import njit, njit_lean
 from physics.arrays import Array, Flags, Index
 from physics.contact.contact_set import contradicts
 from physics.contact.forces import ACTIVE, FORCE, Contacts, of_ball
+from physics.integrators.trial import take_over
 from physics.motion import MotionModel, outer_ring_acceleration, resonator_acceleration
 
 DONE, NOT_FINITE, LOG_FULL, OUT_OF_STEPS = range(4)
@@ -86,8 +87,7 @@ def record(
             output.outer[1, sample, axis] = state[8 + axis]
             output.outer[2, sample, axis] = outer_ring_acceleration(motion, state, axis, net_force[axis])
     if output.state.shape[0] > 0:
-        for i in range(12):
-            output.state[sample, i] = state[i]
+        take_over(output.state[sample], state)
     if output.force.shape[0] > 0:
         for ball in range(output.force.shape[1]):
             output.force[sample, ball] = of_ball(balls, FORCE, ball)

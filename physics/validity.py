@@ -140,7 +140,7 @@ def _ball_inertia(scene: Scene, peak: float) -> str:
         return ""
     return (
         f"the inertia of a ball on its way over the spall ({force:.3g} N, 2 m h / t^2 of the steepest drop h and its "
-        f"time t, of which a cosine edge peaks at 2.5 times) is left out but is {_share(force, peak)} the peak ball "
+        f"time t, at a cosine edge up to 2.5 times that) is left out but is {_share(force, peak)} the peak ball "
         f"load ({peak:.3g} N)"
     )
 

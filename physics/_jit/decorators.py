@@ -76,7 +76,8 @@ def _without_door(compiled: Any) -> Any:
 def specialise(
     template: Callable[..., Any], name: str, compiled_by: Callable[..., Any] = njit, **bindings: Any
 ) -> Callable[..., Any]:
-    """Compile a copy of `template` under `name`, with `bindings` in place of its module's names.
+    """Compile a copy of `template` under `name`, in one of the ways above, with `bindings` in place of its module's
+    names.
 
     A compiled function given as an argument or a closure would miss the compile cache in every process.
     """

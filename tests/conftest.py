@@ -1,6 +1,9 @@
 """What is done before the first test, and in which order files of tests are run."""
 
 import os
+import shutil
+import sys
+import tempfile
 
 # What compiles most comes first: every method, which all others find compiled.
 FIRST = ("test_where_methods_fail.py", "test_wheel.py")
@@ -8,6 +11,19 @@ FIRST = ("test_where_methods_fail.py", "test_wheel.py")
 # Processes run side by side: threads of linear algebra and of learners would only wait for each other.
 for threads in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
     os.environ.setdefault(threads, "1")
+
+
+def pytest_configure(config):
+    """Let processes share their bytecode: hundreds begin, and without it each compiles all sources for itself.
+
+    Where none is to be written beside the sources, it goes to a folder that is removed in the end.
+    """
+    if hasattr(config, "workerinput") or not sys.dont_write_bytecode:
+        return
+    folder = tempfile.mkdtemp(prefix="spallgen-bytecode-")
+    config.add_cleanup(lambda: shutil.rmtree(folder, ignore_errors=True))
+    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+    os.environ["PYTHONPYCACHEPREFIX"] = folder
 
 
 def pytest_sessionstart(session):

@@ -45,7 +45,8 @@ class Accurate:
 class FixedSteps:
     """The nonlinear model by `substeps` steps a sample of a `method` of integrators.method_table.MARCHES.
 
-    `substeps`: 1 to 1024, or None for the fewest that are stable and resolve the fastest mode.
+    `substeps`: 1 to 1024 a sample of the rate that is marched at, which is a multiple of the one asked for where that
+    does not hold the resonator; None for the fewest that are stable and resolve the fastest mode.
     `estimate_error`: a second response says what error was made: at half the step or, where balls pass a taper or floor
     within a step, at a shorter one or by `exponential_rk4`.
 
@@ -67,9 +68,10 @@ class FixedSteps:
 class HalvedSteps:
     """The nonlinear model by a `method` of integrators.method_table.MARCHES, to a stated accuracy.
 
-    Steps are halved, down to 32 a sample, until the response differs from one at half the step by no more than the
-    `accuracy`, a relative RMS error of the acceleration, 1e-6 to 0.1. Where a ball passes a taper or the floor of a
-    spall within a step, which halving leaves as it is, they are held against shorter steps, up to 256 a sample.
+    Steps are halved, down to 32 a sample of the rate that is marched at (see FixedSteps), until the response differs
+    from one at half the step by no more than the `accuracy`, a relative RMS error of the acceleration, 1e-6 to 0.1.
+    Where a ball passes a taper or the floor of a spall within a step, which halving leaves as it is, they are held
+    against shorter steps, up to 256 a sample.
 
     Raises InvalidParameter for an accuracy out of range or another method.
     """

@@ -34,7 +34,7 @@ def assess(scene: Scene) -> tuple[str, ...]:
     peak = peak_ball_load(scene)
     forces = (_centrifugal(scene, peak), _ball_inertia(scene, peak), _steps(scene))
     run = (_speed(scene), _cage_speed(scene))
-    notes = (*forces, *run, _load(scene, peak), _contact_angle(scene))
+    notes = (*forces, *run, _load(scene, peak), _reversed(scene), _contact_angle(scene))
     return tuple(note for note in notes if note)
 
 
@@ -184,7 +184,7 @@ def _cage_speed(scene: Scene) -> str:
 
 
 def _load(scene: Scene, peak: float) -> str:
-    bearing, load = scene.rig.bearing, scene.operation.load
+    bearing = scene.rig.bearing
     _, largest = load_range(scene)
     if largest == 0.0 and peak == 0.0:
         return "there is no load (0 N): balls touch only by chance and no quasi-static position is defined"
@@ -200,9 +200,14 @@ def _load(scene: Scene, peak: float) -> str:
             f"the most loaded ball carries {peak:.4g} N, more than at the static rating of the bearing ({dents:.4g} "
             f"N), where elements and races are dented"
         )
-    if load < 0.0:
-        return f"the static load is reversed ({load:.4g} N): the load zone is centred at 90 degrees instead of 270"
     return ""
+
+
+def _reversed(scene: Scene) -> str:
+    load = scene.operation.load
+    if load >= 0.0:
+        return ""
+    return f"the static load is reversed ({load:.4g} N): the load zone is centred at 90 degrees instead of 270"
 
 
 def _contact_angle(scene: Scene) -> str:

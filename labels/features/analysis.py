@@ -165,7 +165,10 @@ class Analysis:
 
     @cached_property
     def decoys(self) -> Array:
-        """Evidence (D,) of families at fundamentals that belong to no part of the bearing, best band each."""
+        """Evidence (D,) of families at fundamentals that belong to no part of the bearing, best band each.
+
+        D is eight, or as many of DECOYS as lie apart from the lines of this bearing.
+        """
         of_bearing = np.array([self.given.bpfo, self.given.bpfi, 2.0 * self.given.ball_spin])
         near = [np.abs(order / np.outer(of_bearing, RATIOS) - 1.0).min() < 2.0 * SLIP_TOLERANCE for order in DECOYS]
         chosen = [order for order, taken in zip(DECOYS, near, strict=True) if not taken][:8]
@@ -179,10 +182,10 @@ def analyse(
     bandwidth: float = COMMON_BANDWIDTH,
     turning: Turning | None = None,
 ) -> Analysis:
-    """The analysis of one axis (T,) sampled at `rate` (Hz), below `bandwidth` (Hz); ValueError without a signal.
+    """The analysis of one axis (T,) sampled at `rate` (Hz), below `bandwidth` (Hz).
 
     Where the speed changes, `turning` says how; it takes precedence over the speed of the `kinematics`, and every
-    frequency is an order times the mean speed.
+    frequency is an order times the mean speed. ValueError where `condition` finds no signal.
     """
     record = condition(signal, rate, bandwidth, turning)
     if record.turning is not None:

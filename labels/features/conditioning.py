@@ -60,10 +60,12 @@ def condition(
 
     The end of the record is dropped where its length has no fast transform. The flat spectrum is divided by the square
     root of the local mean power, taken from the median over 1/96 of the bandwidth, and tones are cut to ten times that.
-    ValueError for fewer than 64 samples, a rate that is no finite number above 0, samples that are not finite or a
-    signal that does not change.
+    ValueError for fewer than 64 samples, a rate that is no finite number above 0, samples that are not finite, a signal
+    that does not change, or a `turning` of another number of samples.
     """
     signal = sound_signal(signal, rate)
+    if turning is not None and turning.angle.size != signal.size:
+        raise ValueError(f"{turning.angle.size} angles of the shaft for {signal.size} samples; one for each is needed")
     signal = signal[: fft.prev_fast_len(signal.size, real=True)]
     if np.ptp(signal) == 0.0:
         raise ValueError("the signal does not change")

@@ -61,8 +61,8 @@ ROWS = (
     Feature(
         "shaft_modulation", "ln nat", "ln(1 + evidence of shaft harmonics 1 to 4 in the envelopes), best band.", SES
     ),
-    Feature("decoy_evidence", "ln nat", "ln(1 + median evidence at eight orders of no bearing part).", SES),
-    Feature("largest_decoy", "ln nat", "ln(1 + largest evidence at eight orders of no bearing part).", SES),
+    Feature("decoy_evidence", "ln nat", "ln(1 + median evidence at up to eight orders of no bearing part).", SES),
+    Feature("largest_decoy", "ln nat", "ln(1 + largest evidence at up to eight orders of no bearing part).", SES),
 )
 
 

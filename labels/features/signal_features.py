@@ -27,16 +27,19 @@ def signal_features(
     """All features, in the order of FEATURES, of the acceleration `signal` (T,) of one axis sampled at `rate` (Hz).
 
     `kinematics` says how often balls pass and how fast the shaft turns (`bearing_kinematics`); `turning` how its speed
-    changes, if it does. Features see what lies below `bandwidth` (Hz). In which unit the signal is does not matter.
+    changes, if it does, with an angle for each sample; its mean speed then takes the place of theirs. Features see what
+    lies below `bandwidth` (Hz). In which unit the signal is does not matter.
 
     The values are those that `spallgen classify` judges a record no longer than 10.5 s by; it cuts longer ones into
     equal pieces. Of less than 0.1 s it judges nothing: the features of so little say little.
 
     ValueError for fewer than 64 samples, several axes, a rate that is no finite number above 0, samples that are not
-    finite, fewer than four different values, less than one turn of the shaft, or balls that pass the inner race at more
-    than 0.45 of the bandwidth.
+    finite, fewer than four different values, a `turning` of another number of samples, less than one turn of the shaft,
+    or balls that pass the inner race at more than 0.45 of the bandwidth.
     """
     signal = sound_signal(signal, rate)
+    if turning is not None:
+        kinematics = kinematics.at(turning.revolutions * rate / signal.size)
     turns = kinematics.shaft_hz * signal.size / rate
     if turns < FEWEST_TURNS:
         raise ValueError(f"the shaft makes {turns:.3g} turns in the signal; features need {FEWEST_TURNS:g} or more")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from labels.spall_size.size_estimate import SizeEstimate
+from labels.spall_size.size_estimate import LONGEST_EXTENT, SizeEstimate
 
 # Share of an error (logarithm) that is taken to hold for the other records of the machine. Errors of two records of one
 # machine hardly go together (correlation 0.04 over 725 pairs of the size training), because each spall has edges of its
@@ -24,13 +24,17 @@ def known_size_factor(estimated: float, known: float) -> float:
 
 
 def corrected(estimate: SizeEstimate, factor: float) -> SizeEstimate:
-    """The same estimate with every extent times `factor`; the lag, which was seen, stays."""
+    """The same estimate with its extent times `factor`, if that is not too long to be reported; the lag, which was
+    seen, stays, and the other candidates stay whole ball spacings longer."""
+    extent = min(estimate.extent * factor, LONGEST_EXTENT)
+    factor, longer = extent / estimate.extent, extent - estimate.extent
+    others = (candidate + longer for candidate in estimate.candidates[1:])
     return replace(
         estimate,
-        extent=estimate.extent * factor,
+        extent=extent,
         extent_interval=(estimate.extent_interval[0] * factor, estimate.extent_interval[1] * factor),
         extent_mm=estimate.extent_mm * factor,
         extent_mm_interval=(estimate.extent_mm_interval[0] * factor, estimate.extent_mm_interval[1] * factor),
-        candidates=tuple(value * factor for value in estimate.candidates),
+        candidates=(extent, *(other for other in others if other <= LONGEST_EXTENT)),
         method=f"{estimate.method}, known size of another record",
     )

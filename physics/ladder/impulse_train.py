@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -59,8 +59,8 @@ def _mean_contacts(scene: Scene) -> tuple[Array, Array]:
 
 
 def _edges_of_spall(scene: Scene, index: int) -> list[Edges]:
-    """The entry edge and the exit edge of every pass over one spall, under the load of each instant; also some of just
-    before the record and behind it."""
+    """The entry edge and the exit edge of every pass over one spall, under the load of each instant; also of those that
+    began before the record or end behind it."""
     spall, bearing = scene.spalls[index], scene.rig.bearing
     path = build_path(spall, bearing)
     speed = scene.crossing_speed(spall)
@@ -70,8 +70,8 @@ def _edges_of_spall(scene: Scene, index: int) -> list[Edges]:
     found = []
     for sign in (-1.0, 1.0):
         arcs, depths = _way_down(path, -sign)
-        longest = (arcs[-1] - arcs[0]) / speed
-        crossed = passages(scene, index, -sign * arcs[0], -longest, scene.duration + longest)
+        beside = (arcs[-1] - arcs[0] + spall.extent) / speed
+        crossed = passages(scene, index, -sign * arcs[0], -beside, scene.duration + beside)
         angle = _ball_angle(scene, spall, crossed.ball, crossed.time)
         position = require_equilibrium(_sound(scene), crossed.time).displacement
         radial = position[:, 0] * np.cos(angle) + position[:, 1] * np.sin(angle) - bearing.clearance
@@ -111,13 +111,22 @@ def _ball_angle(scene: Scene, spall: Spall, ball: Index, time: Array) -> Array:
 
 
 def edges_of(scene: Scene) -> Edges:
-    """The steps of force at all edges of all spalls of `scene`, in the order of time."""
+    """The steps of force at all edges of all spalls of `scene` whose middle lies within it, in the order of time."""
+    return _within(_edges_around(scene), scene.duration)
+
+
+def _within(edges: Edges, duration: float) -> Edges:
+    within = (edges.time >= 0.0) & (edges.time < duration)
+    return Edges(*(column[within] for column in list[Any](edges)))
+
+
+def _edges_around(scene: Scene) -> Edges:
+    """The steps at all edges of all spalls, also before and behind the record, in the order of time."""
     parts = [part for index in range(len(scene.spalls)) for part in _edges_of_spall(scene, index)]
     none, number = np.zeros(0), np.zeros(0, np.int16)
     empty = Edges(none, number, number, none, none, none, np.zeros(0, np.bool_))
     columns = [np.concatenate(column) for column in zip(empty, *parts, strict=True)]
-    within = np.flatnonzero((columns[0] >= 0.0) & (columns[0] < scene.duration))
-    order = within[np.argsort(columns[0][within], kind="stable")]
+    order = np.argsort(columns[0], kind="stable")
     return Edges(*(column[order] for column in columns))
 
 
@@ -179,7 +188,8 @@ def impulse_response(scene: Scene, rate: float, keep: Kept = ACCELERATION_ALONE)
     """
     samples, rig = scene.samples(rate), scene.rig
     stiffness, film = _mean_contacts(scene)
-    edges = edges_of(scene)
+    around = _edges_around(scene)
+    edges = _within(around, scene.duration)
     squared, shapes = eigh(coupled_matrix(rig.stiffness_matrix(), stiffness), rig.mass_matrix())
     damping = np.diag(shapes.T @ coupled_matrix(rig.damping_matrix(), film) @ shapes)
     cos_alpha = math.cos(rig.bearing.contact_angle)
@@ -190,7 +200,7 @@ def impulse_response(scene: Scene, rate: float, keep: Kept = ACCELERATION_ALONE)
         rate=rate,
         time=np.arange(samples) / rate,
         acceleration=acceleration,
-        changes=_changes(scene, edges),
+        changes=_changes(scene, around),
         model=IMPULSE_TRAIN.name,
         method="modes",
         step=math.nan,
@@ -202,14 +212,18 @@ def impulse_response(scene: Scene, rate: float, keep: Kept = ACCELERATION_ALONE)
 def _changes(scene: Scene, edges: Edges) -> ContactChanges:
     bearing = scene.rig.bearing
     time = edges.time - 0.5 * np.sign(edges.change) * edges.ramp
-    logged = np.flatnonzero(edges.unloads & (time >= 0.0) & (time < scene.duration))
-    logged = logged[np.argsort(time[logged], kind="stable")]
+    ahead = np.flatnonzero(edges.unloads & (time >= 0.0))
+    ahead = ahead[np.argsort(time[ahead], kind="stable")]
+    # What the first change of a ball undoes was so from the beginning; written last, as later ones come first.
+    initial, backwards = np.ones((bearing.rows, bearing.balls), dtype=np.bool_), ahead[::-1]
+    initial[edges.row[backwards] - 1, edges.ball[backwards] - 1] = edges.change[backwards] < 0.0
+    logged = ahead[time[ahead] < scene.duration]
     return ContactChanges(
         time=time[logged],
         row=edges.row[logged],
         ball=edges.ball[logged],
         made=edges.change[logged] > 0.0,
-        initial=np.ones((bearing.rows, bearing.balls), dtype=np.bool_),
+        initial=initial,
     )
 
 

@@ -87,6 +87,6 @@ def steps_over_spalls(scene: Scene, rate: float) -> int:
 
 
 def _estimated_error(coarse: Trace, fine: Trace) -> float:
-    """Estimated RMS error of the acceleration of `coarse`, relative to its RMS, as if `fine` were of half its step and
-    both of order 2; of a finer one it is an overestimate."""
+    """Estimated RMS error of the acceleration of `coarse`, relative to the RMS of `fine`, as if that were of half the
+    step and both of order 2; of a finer one it is an overestimate."""
     return relative_error(coarse.acceleration, fine.acceleration) / (1.0 - 2.0**-ORDER)

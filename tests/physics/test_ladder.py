@@ -541,3 +541,37 @@ def test_no_change_of_contact_lies_before_the_record(reference_scene):
     later = dataclasses.replace(scene, cage=cage)
     assert edges_of(later).time[0] == pytest.approx(0.25 * edges.ramp[k], abs=1e-9)
     assert impulse_response(later, RATE).changes.time.min() >= 0.0
+
+
+def test_a_ball_that_stands_in_a_spall_at_first_does_not_touch(reference_scene):
+    scene = reference_scene("G1", 0.05)
+    spall = dataclasses.replace(scene.spalls[0], extent=0.35, depth=1e-4)
+    # A ball in its middle, for longer than the record lasts.
+    cage = dataclasses.replace(scene.cage, start_angle=spall.angle, duration=1e-3)
+    scene = dataclasses.replace(scene, cage=cage, spalls=(spall,))
+    initial = impulse_response(scene, RATE).changes.initial
+    assert not initial[0, 0]
+    assert initial.sum() == initial.size - 1
+    assert not simulate(scene, RATE, Simpler("quasi-static")).changes.initial[0, 0]
+
+
+def test_every_change_of_contact_of_the_impulse_train_changes_something(reference_scene):
+    scene = reference_scene("G1", 0.2)
+    for begins in np.linspace(0.0, 0.02, 41):  # also within passes
+        cage = dataclasses.replace(scene.cage, start_angle=float(scene.cage.angle(begins)))
+        changes = impulse_response(dataclasses.replace(scene, cage=cage), RATE).changes
+        touching = changes.initial.copy()
+        for row, ball, made in zip(changes.row - 1, changes.ball - 1, changes.made, strict=True):
+            assert touching[row, ball] != made
+            touching[row, ball] = made
+
+
+def test_a_change_of_contact_before_the_end_is_logged_though_the_middle_of_its_step_lies_behind_it(reference_scene):
+    scene = over_long_tapers(reference_scene("G1", 0.2))
+    edges = edges_of(scene)
+    k = np.flatnonzero(edges.unloads & (edges.change > 0.0))[1]
+    begins = float(edges.time[k] - 0.5 * edges.ramp[k])
+    cage = dataclasses.replace(scene.cage, duration=begins + 0.25 * float(edges.ramp[k]))
+    changes = impulse_response(dataclasses.replace(scene, cage=cage), RATE).changes
+    assert changes.time[-1] == pytest.approx(begins, abs=1e-9)
+    assert (changes.row[-1], changes.ball[-1], changes.made[-1]) == (edges.row[k], edges.ball[k], True)

@@ -10,6 +10,7 @@ from physics.cage import CagePath
 from physics.catalog import rig
 from physics.imperfections import Imperfections
 from physics.operation import Operation
+from physics.rating import static_load_rating
 from physics.scene import Scene
 from physics.spall import Spall
 from physics.validity import assess, centrifugal_force, element_mass, inertia_force, peak_ball_load
@@ -299,6 +300,15 @@ def test_a_load_above_the_static_rating_is_noted_with_both(gearbox):
 
 def with_clearance(machine, clearance):
     return dataclasses.replace(machine, bearing=dataclasses.replace(machine.bearing, clearance=clearance))
+
+
+def test_a_reversed_load_is_noted_beside_one_that_is_too_large(gearbox):
+    rating = static_load_rating(gearbox.bearing)
+    first, second = (
+        note for note in assess(scene_of(gearbox, load=-1.1 * rating)) if "static load is" in note or "rating" in note
+    )
+    assert "exceeds the static rating" in first
+    assert second.startswith("the static load is reversed")
 
 
 @pytest.mark.parametrize("load", [0.0, 346.0])

@@ -73,3 +73,8 @@ def test_impossible_numbers_are_refused_by_their_name(wrong):
 def test_a_ball_as_large_as_the_pitch_circle_or_none_is_refused(ball_diameter):
     with pytest.raises(ValueError, match="ball_diameter"):
         bearing_kinematics(9, 7e-3, ball_diameter, 0.0, 25.0)
+
+
+def test_a_part_of_a_ball_is_refused():
+    with pytest.raises(ValueError, match=r"balls = 9\.5; allowed: whole numbers"):
+        bearing_kinematics(9.5, 39.04e-3, 7.94e-3, 0.0, 29.95)

@@ -7,6 +7,7 @@ from labels.features.analysis import analyse
 from labels.features.kinematics import bearing_kinematics
 from labels.features.signal_features import signal_features
 from labels.features.table import FEATURE_NAMES, feature_values
+from labels.features.turning import Turning
 
 KNOWN = bearing_kinematics(9, 39.04e-3, 11.0e-3, 0.0, 25.0)
 RATE = 20_000.0
@@ -56,6 +57,21 @@ def test_a_jump_of_the_bias_is_levelled_first(impulse_train):
 def test_what_has_no_features_is_refused(signal, rate, shaft_hz, message):
     with pytest.raises(ValueError, match=message):
         signal_features(signal, rate, KNOWN.at(shaft_hz))
+
+
+@pytest.mark.parametrize("samples", [10_000, 40_000])
+def test_angles_of_another_number_than_the_samples_are_refused(impulse_train, samples):
+    signal = impulse_train(KNOWN.bpfo)
+    with pytest.raises(ValueError, match=f"{samples} angles of the shaft for 20000 samples"):
+        signal_features(signal, RATE, KNOWN, turning=Turning(np.linspace(0.0, 150.0, samples)))
+
+
+@pytest.mark.parametrize("stated_hz", [0.1, 24.0, 2000.0])
+def test_the_angle_alone_says_how_fast_the_shaft_turns(impulse_train, stated_hz):
+    signal = impulse_train(KNOWN.bpfo)
+    turning = Turning(2.0 * np.pi * 25.0 * np.arange(signal.size) / RATE)
+    found = signal_features(signal, RATE, KNOWN.at(stated_hz), turning=turning)
+    assert found == signal_features(signal, RATE, KNOWN, turning=turning)
 
 
 def test_a_signal_that_repeats_itself_has_finite_features():

@@ -27,7 +27,7 @@ def test_a_correction_scales_every_extent_and_leaves_the_lag():
     assert (made.extent, made.extent_mm) == pytest.approx((0.11, 2.2))
     assert made.extent_interval == pytest.approx((0.088, 0.132))
     assert made.extent_mm_interval == pytest.approx((1.76, 2.64))
-    assert made.candidates == pytest.approx((0.11, 0.66))
+    assert made.candidates == pytest.approx((0.11, 0.61))  # still a ball spacing of 0.5 apart
     assert (made.lag, made.lag_interval) == (estimate.lag, estimate.lag_interval)
 
 
@@ -36,3 +36,13 @@ def test_a_correction_scales_every_extent_and_leaves_the_lag():
 )
 def test_a_twentieth_of_the_error_is_taken_for_the_machines_and_of_five_per_cent_at_most(known, counted):
     assert known_size_factor(1.0, known) == pytest.approx(counted**0.05, rel=1e-12)
+
+
+def test_no_correction_makes_a_spall_longer_than_the_longest_that_is_reported():
+    estimate = SizeEstimate(SizeOutcome.ESTIMATED, "m", "outer", lag=1e-3, lag_interval=(9e-4, 2e-3), extent=2.6,
+                        extent_interval=(2.5, 2.7), extent_mm=26.0, extent_mm_interval=(25.0, 27.0),
+                        candidates=(2.6, 3.1))  # fmt: skip
+    assert corrected(estimate, 1.02).candidates == pytest.approx((2.652,))  # 3.152 is more than half the race
+    longest = corrected(estimate, 1.5)
+    assert longest.candidates == (math.pi,)
+    assert (longest.extent, longest.extent_mm) == pytest.approx((math.pi, 10.0 * math.pi))

@@ -11,6 +11,7 @@ import joblib
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from threadpoolctl import threadpool_info, threadpool_limits
 
 from datagen.sizing import training_rows
 from datagen.sizing.in_blocks import in_blocks
@@ -33,6 +34,21 @@ def test_calls_are_drawn_by_the_thread_that_asks_and_their_results_come_in_order
         made = list(in_blocks((joblib.delayed(sum)(record) for record in read()), 2))
     assert made == list(range(40))
     assert set(READERS) == {threading.current_thread()}
+
+
+def most_threads() -> int:
+    """How many threads linear algebra has where this is called, at most."""
+    return max(library["num_threads"] for library in threadpool_info())
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+def test_linear_algebra_has_one_thread_where_records_are_worked_on_and_as_many_as_before_elsewhere(
+    workers: int,
+) -> None:
+    with threadpool_limits(limits=2):
+        for threads in in_blocks((joblib.delayed(most_threads)() for _ in read(12)), workers):
+            assert threads == 1
+            assert most_threads() == 2
 
 
 def test_an_error_stops_the_drawing_of_calls() -> None:

@@ -105,6 +105,32 @@ def test_a_block_of_a_balanced_setting_holds_each_option_as_often_as_its_weight(
         assert sorted(balanced.shuffled(np.random.default_rng(seed))) == [0, 2, 2, 2]
 
 
+def test_a_block_of_a_balanced_setting_may_be_a_thousand_long() -> None:
+    longest = parse_distribution({"balanced": ["a", "b"], "weights": [1, 999]})
+    assert isinstance(longest, Balanced)
+    assert longest.block == 1000
+
+
+def test_a_normal_distribution_is_cut_off_by_its_own_bounds_and_by_those_of_its_setting() -> None:
+    open_above = Normal(5.0, 1.0, low=4.0)
+    assert open_above.within(3.0, 6.0) == Normal(5.0, 1.0, 4.0, 6.0)
+    assert Normal(5.0, 1.0, 4.0, 6.0).within(4.5, 7.0) == Normal(5.0, 1.0, 4.5, 6.0)
+
+
+def test_a_normal_distribution_states_its_bounds_and_its_mean_unless_both_ends_are_cut_off() -> None:
+    assert Normal(5.0, 1.0).stated() == (5.0,)
+    assert set(Normal(5.0, 1.0, low=4.0).stated()) == {4.0, 5.0}
+    assert set(Normal(5.0, 1.0, high=4.0).stated()) == {4.0, 5.0}
+    assert set(Normal(5.0, 1.0, 9.0, 9.5).stated()) == {9.0, 9.5}  # draws come nowhere near the mean
+
+
+def test_rounding_takes_no_draw_beyond_the_ends() -> None:
+    for distribution in (Normal(0.0, 2.0, 0.3, 0.7), Normal(0.0, 2.0, -4.0, 4.0)):
+        ends = distribution.stated()
+        drawn = [distribution.quantile(probability) for probability in PROBABILITIES]
+        assert min(ends) <= min(drawn) <= max(drawn) <= max(ends)
+
+
 @pytest.mark.parametrize(
     ("example", "message"),
     [

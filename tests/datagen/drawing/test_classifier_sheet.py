@@ -8,7 +8,15 @@ import pytest
 from datagen.benchmark.model_scores import Calibration, Confusion
 from datagen.benchmark.options import Options
 from datagen.benchmark.results import CorpusResults, CorpusScores, NoisyScores, Results
-from datagen.drawing.classifier_panels import draw_against, draw_confusion, draw_curve, draw_noise, draw_scores
+from datagen.drawing.classifier_panels import (
+    draw_against,
+    draw_confusion,
+    draw_curve,
+    draw_importances,
+    draw_noise,
+    draw_reliability,
+    draw_scores,
+)
 from datagen.drawing.classifier_sheet import columns, draw_results, scores_png
 from datagen.drawing.style import INK, house_style, with_panels
 from labels.interval import Interval
@@ -166,6 +174,52 @@ def test_scores_with_noise_added_are_drawn_over_its_level(results_of):
         draw_noise(axes, results_of(levels=(0.0, -10.0)).tests[0])
     assert [label.get_text() for label in axes.get_xticklabels()] == ["-10", "0", "none added"]
     assert [text.get_text() for text in axes.get_legend().get_texts()] == ["rule", "forest"]
+
+
+def lines_of(draw, *arguments):
+    """The lines that a panel draws, by the names in its legend, and its axes."""
+    with house_style():
+        _, axes = with_panels(figsize=(4.0, 3.0))
+        draw(axes, *arguments)
+    return {line.get_label(): line for line in axes.lines}, axes
+
+
+def test_a_reliability_curve_is_what_was_observed_over_what_was_predicted():
+    curve = {"predicted": [0.1, 0.6], "observed": [0.2, 0.9]}
+    lines, axes = lines_of(draw_reliability, {"rule": None, "forest": curve})
+    assert lines["forest"].get_xydata().tolist() == [[0.1, 0.2], [0.6, 0.9]]
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("predicted probability of a spall", "share of spalls")
+    assert "rule" not in lines
+
+
+def test_the_most_important_feature_stands_on_top_and_no_more_than_fifteen_are_drawn():
+    _, axes = lines_of(draw_importances, "forest", {f"feature {k}": 1.0 / k for k in range(1, 21)})
+    from_the_top = [label.get_text() for label in axes.get_yticklabels()][::-1]
+    assert from_the_top == [f"feature {k}" for k in range(1, 16)]
+    assert [bar.get_width() for bar in axes.patches][::-1] == [1.0 / k for k in range(1, 16)]
+
+
+def test_scores_have_their_intervals_from_end_to_end(summary_of):
+    _, axes = lines_of(draw_scores, summary_of(5, 10))
+    drawn = [line.get_ydata().tolist() for line in axes.lines if len(line.get_xdata())]
+    assert drawn == [[0.4, 0.6], [0.5]] * 3
+
+
+@pytest.mark.parametrize("draw", [lambda axes, table: draw_against(axes, table, "speed_rpm"), draw_curve])
+def test_curves_have_their_intervals_as_bands(draw):
+    points = [point(8, bearings=8, low=0.1, high=0.7), point(9, bearings=9, low=0.2, high=0.8)]
+    _, axes = lines_of(draw, {"forest": points})
+    (band,) = axes.collections
+    assert {tuple(place) for place in band.get_paths()[0].vertices} == {(8.0, 0.1), (8.0, 0.7), (9.0, 0.2), (9.0, 0.8)}
+
+
+def test_a_learning_curve_is_over_bearings_in_the_colour_that_its_model_has_beside_the_rule():
+    points = [point(1, bearings=80), point(2, bearings=90)]
+    curve, _ = lines_of(draw_curve, {"forest": points})
+    against, _ = lines_of(draw_against, {"rule": points, "forest": points}, "speed_rpm")
+    assert curve["forest"].get_xdata().tolist() == [80, 90]
+    assert against["forest"].get_xdata().tolist() == [1, 2]
+    assert curve["forest"].get_color() == against["forest"].get_color() != against["rule"].get_color()
 
 
 def test_every_panel_of_scores_names_its_axis_and_its_models(results_of):

@@ -77,6 +77,18 @@ def test_the_close_up_is_three_revolutions_about_the_largest_amplitude() -> None
     assert portrait(speed_rpm=20.0).window == pytest.approx((0.0, 1.0))
 
 
+def test_the_close_up_at_an_unknown_speed_is_a_tenth_of_a_second_about_the_largest_amplitude() -> None:
+    start, stop = portrait(**UNKNOWN).window
+    assert stop - start == pytest.approx(0.1)
+    assert start < 0.7 < stop
+
+
+def test_the_largest_amplitude_is_that_about_the_mean_of_a_sensor_that_shows_a_constant() -> None:
+    made = portrait()
+    start, stop = replace(made, acceleration=10.0 - np.abs(made.acceleration)).window
+    assert start < 0.7 < stop
+
+
 def test_every_panel_is_drawn_whatever_is_unknown() -> None:
     for drawn in (portrait(), portrait(("x",), **UNKNOWN), portrait(("x", "y"), bpfo=math.nan, location="inner")):
         assert measured_sheet_png(drawn).startswith(b"\x89PNG")
@@ -98,6 +110,9 @@ def test_every_panel_is_drawn_whatever_is_unknown() -> None:
         ({"envelope_band": (2000.0, 2420.0)}, 420.0),  # no envelope varies faster than its band is wide
         ({"envelope_band": (2000.0, 2050.0)}, 1.2 * 90.0),  # the line looked for stays in sight
         (UNKNOWN | {"envelope_band": (2000.0, 2300.0)}, 300.0),
+        ({"location": "none"}, 6.6 * 135.0),  # six lines of the faster race
+        ({"bpfo": math.nan}, 30.0 * 25.0),  # thirty turns, where no line is known
+        (UNKNOWN | {"envelope_band": (2000.0, 3000.0)}, 500.0),
     ],
 )
 def test_the_axis_of_the_envelope_spectrum_ends_where_its_content_does(changes: dict[str, Any], end: float) -> None:
@@ -116,6 +131,21 @@ def test_heading_and_summary_say_what_is_known_and_no_more() -> None:
     assert "speed unknown" in summary(portrait(**UNKNOWN))
     without_name = portrait(rig="unknown", bearing="unknown", balls=9.0)
     assert summary(without_name).startswith("measured, 9 balls in a row  ·  1500 rpm")
+
+
+@pytest.mark.parametrize(
+    ("location", "words"),
+    [
+        ("outer", "defect on the outer race"),
+        ("inner", "defect on the inner race"),
+        ("ball", "defect on a ball"),
+        ("cage", "defect of the cage"),
+        ("several", "defects in several places"),
+    ],
+)
+def test_the_heading_names_the_place_of_the_defect(location: str, words: str) -> None:
+    assert heading(portrait(location=location)).endswith(f", line {words}")
+    assert heading(portrait(location=location, condition="unknown")).endswith(f", {words}")
 
 
 def test_dollar_signs_in_names_are_drawn_and_are_no_mathematics() -> None:

@@ -80,6 +80,9 @@ def test_of_several_spalls_the_one_whose_pass_is_shown_is_drawn(portrait):
     assert "spall 1 of 2, 2° = 0.801 mm" in axes_of(several, "Path").get_title(loc="left")
     assert "on its way over the spall" in axes_of(several, "Quasi-static load").get_title(loc="left")
     assert heading(several).endswith("2 spalls, outer race (the largest: line)")
+    passes = replace(drawn.passes, defect=np.ones_like(drawn.passes.defect))
+    other_way = replace(several, scene=replace(drawn.scene, spalls=several.scene.spalls[::-1]), passes=passes)
+    assert "spall 2 of 2, 2° = 0.801 mm" in axes_of(other_way, "Path").get_title(loc="left")
 
 
 def test_a_stiffness_that_hardly_changes_is_drawn_as_a_level_line(portrait):

@@ -8,7 +8,7 @@ import pytest
 from matplotlib.colors import to_rgba
 
 from datagen.drawing.frequency_panels import draw_spectrum
-from datagen.drawing.path_panels import draw_path, load_over_spall
+from datagen.drawing.path_panels import draw_ball_load, draw_path, load_over_spall
 from datagen.drawing.sheet import draw_sheet
 from datagen.drawing.style import BLUE, GREEN, GREY, ORANGE, PALE, VERMILLION, house_style, with_panels
 from datagen.drawing.time_panels import draw_close_up, draw_passes, draw_spectrogram, draw_stiffness, draw_trace
@@ -104,6 +104,7 @@ def test_a_tone_stands_at_its_frequency_and_amplitude_and_the_band_at_its_edges(
     best = np.argmax(line.get_ydata())
     assert (line.get_xdata()[best], line.get_ydata()[best]) == pytest.approx((3.0, 2.0), rel=1e-6)  # on a bin
     assert (band.get_x(), band.get_x() + band.get_width()) == pytest.approx((5.0, 7.0))
+    assert axes.get_xlim() == (0.0, 16.384)  # half of the rate of 32 768 Hz
 
 
 def test_the_spectrum_of_a_sheet_and_that_of_its_background_are_of_the_y_axis(tones):
@@ -138,6 +139,25 @@ def test_the_path_is_as_deep_as_the_spall_in_micrometres_between_its_edges(portr
     outside = np.abs(path.get_xdata()) > 1.001
     assert outside.any()
     assert not path.get_ydata()[outside].any()
+
+
+def test_the_path_runs_downwards_and_its_deepest_place_is_the_middle_of_the_floor(portrait):
+    drawn = portrait("line, outer")
+    lopsided = replace(drawn.scene.spalls[0], entry_taper=math.radians(0.9), exit_taper=math.radians(0.1))
+    axes = panel_of(draw_path, replace(drawn, scene=replace(drawn.scene, spalls=(lopsided,))))
+    (mark,) = (line for line in axes.lines if line.get_marker() == "v")
+    assert mark.get_xydata() == pytest.approx(np.array([[0.4, 12.0]]))  # from -0.1 to 0.9 degrees
+    assert axes.get_ylim()[0] > 12.0 > 0.0 > axes.get_ylim()[1]
+
+
+def test_the_ball_whose_load_is_drawn_is_the_one_that_is_at_the_spall(portrait):
+    drawn = portrait("line, outer")
+    k, spall, scene = drawn.shown_pass, drawn.shown_spall, drawn.scene
+    middle = 0.5 * (drawn.passes.entry_time[k] + drawn.passes.exit_time[k])
+    places = 0.2 + scene.cage.mean_speed * middle + 2.0 * math.pi / 12.0 * np.arange(12)  # of twelve balls of row 1
+    ball = 1 + int(np.argmin(np.abs(np.exp(1j * places) - np.exp(1j * spall.angle))))
+    title = panel_of(draw_ball_load, drawn).get_title(loc="left")
+    assert title == f"Quasi-static load of ball {ball} on its way over the spall"
 
 
 def test_the_waves_of_each_race_are_drawn_with_their_phase(portrait):

@@ -118,6 +118,21 @@ def test_the_close_up_holds_three_passes_and_lies_inside_the_record(name, portra
         assert start <= drawn.passes.entry_time[drawn.shown_pass] <= stop
 
 
+def test_the_pass_shown_is_the_loudest_of_the_loaded_ones_but_for_those_at_the_beginning(portrait):
+    drawn = portrait("line, outer")
+    table = drawn.passes
+    middle = 0.5 * (table.entry_time + table.exit_time)
+    settled = np.flatnonzero(table.complete & (table.entry_time > 0.15 * drawn.duration))
+    (early, *_), (loudest, *_, quieter) = np.flatnonzero(table.complete & (table.entry_time < 0.15 * 0.25)), settled
+    clean = np.zeros((drawn.time.size, 2))
+    for k, height in ((early, 9.0), (loudest, -8.0), (quieter, 7.0)):
+        clean[round(middle[k] * drawn.rate), 1] = height
+    assert table.loaded.all()
+    assert replace(drawn, clean=clean).shown_pass == loudest
+    unloaded = replace(table, loaded=np.arange(middle.size) != loudest)
+    assert replace(drawn, clean=clean, passes=unloaded).shown_pass == quieter
+
+
 def test_a_record_shorter_than_the_close_up_is_shown_whole(portrait):
     drawn = portrait("line, outer")
     samples = round(0.05 * drawn.rate)
@@ -140,6 +155,8 @@ def test_cursors_follow_the_defective_race(portrait):
     # Fan rig: the two ball-pass frequencies, 76.74 Hz for the outer race, add up to 14 turns of the shaft at 800 rpm.
     assert families[0][3][0] == pytest.approx(14.0 * 800.0 / 60.0 - 76.74, abs=0.005)  # last printed digit
     assert "shaft 13.3 Hz" in families[1][0]
+    sidebands = [k * families[0][3][0] + side * 800.0 / 60.0 for k in (1, 2, 3) for side in (-1.0, 1.0)]
+    assert families[1][3] == pytest.approx(sidebands)
 
 
 @pytest.mark.parametrize(
@@ -166,6 +183,18 @@ def test_the_envelope_spectrum_ends_where_its_content_does(width, end, beyond, p
     assert ("(beyond the band's width)" in cursors(drawn)[0][0]) == beyond
 
 
+def test_the_lines_of_the_record_s_own_family_are_marked_though_nothing_stands_out(portrait):
+    drawn = portrait("line, outer")
+    lone_burst = np.exp(-0.25 * ((drawn.time - 0.125) / 0.8e-3) ** 2)  # whose square has a spectrum that only falls
+    with house_style():
+        _, axes = with_panels(figsize=(4.0, 3.0))
+        draw_envelope_spectrum(axes, replace(drawn, envelope=lone_burst))
+    marks = axes.lines[1]
+    assert marks.get_label().startswith("BPFO")
+    assert marks.get_xdata().size == 6
+    assert np.all(np.diff(marks.get_ydata()) < 0.0)
+
+
 def test_the_flank_of_a_line_is_not_marked_as_its_sideband():
     frequency, flank = np.arange(60.0), 10.0 ** (-np.abs(np.arange(60.0) - 30.0))
     sidebands = [27.0, 33.0]
@@ -175,11 +204,21 @@ def test_the_flank_of_a_line_is_not_marked_as_its_sideband():
     assert [line[0] for line in line_heights(frequency, standing, sidebands, 3.0, peaks=True)] == [33.0]
 
 
+@pytest.mark.parametrize(("spacing", "reach"), [(100.0, 12), (30.0, 10)])
+def test_a_line_is_looked_for_up_to_a_hundredth_off_and_up_to_a_third_of_the_way_to_the_next(spacing, reach):
+    """The near one of two lines is found, though the higher one lies just beyond: 1.2 % of 1000 Hz, or 10 Hz."""
+    frequency = np.arange(2000.0)
+    for side in (-1, 1):
+        amplitude = 1.0 * (frequency == 1000 + side * reach) + 2.0 * (frequency == 1000 + side * (reach + 1))
+        assert line_heights(frequency, amplitude, [1000.0], spacing) == [(1000.0 + side * reach, 1.0)]
+
+
 def test_the_sheet_says_where_its_modes_are_taken(portrait):
     with house_style():
         _, axes = with_panels(figsize=(4.0, 3.0))
         draw_spectrogram(axes, portrait("line, outer"))
-        said = axes.get_xlabel()
+        said, highest = axes.get_xlabel(), axes.get_ylim()[1]
+    assert highest == pytest.approx(1.3 * 10.548, rel=1e-3)  # kHz: the resonator has room above
     assert said.endswith("dashed: modes along y at the middle of the close-up")
 
 
@@ -226,6 +265,10 @@ def test_overlapping_passes_lie_in_different_lanes():
     entry = np.array([0.0, 1.0, 2.0, 3.5, 3.6])
     leave = np.array([2.5, 3.0, 4.0, 5.0, 6.0])
     assert free_lanes(entry, leave) == [0, 1, 2, 0, 1]
+
+
+def test_a_pass_that_begins_where_another_ends_follows_in_its_lane():
+    assert free_lanes(np.array([0.0, 1.0, 2.0]), np.array([1.0, 2.0, 3.0])) == [0, 0, 0]
 
 
 def test_the_heading_says_what_is_drawn(portrait):

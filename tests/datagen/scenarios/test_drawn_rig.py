@@ -161,6 +161,11 @@ def test_deviations_are_drawn_anew_for_each_machine() -> None:
 def test_a_factor_on_a_number_that_was_given_multiplies_it() -> None:
     (rig,) = rigs(1, rig="fan", clearance_um=4, factors={"clearance": 0.5})
     assert rig.bearing.clearance == 2e-6
+    factors = {"load_deflection": 0.5, "film_damping": 3}
+    (rig,) = rigs(1, rig="fan", load_deflection_n_per_m_to_n=6e9, film_damping_us=10, factors=factors)
+    assert rig.bearing.load_deflection == 3e9
+    stiffness, damping = rated_matrices(rig)
+    assert damping[1, 1] / stiffness[1, 1] == pytest.approx(30e-6)
 
 
 def test_altered_geometry_scales_the_catalogues_k_as_hertz_scales_his() -> None:
@@ -176,7 +181,16 @@ def test_altered_geometry_scales_the_catalogues_k_as_hertz_scales_his() -> None:
     assert other.bearing.load_deflection == catalog.bearing("rexnord_za2115").load_deflection
 
 
-@pytest.mark.parametrize("altered", [{"inner_conformity": 0.53}, {"outer_conformity": 0.55}, {"contact_angle_deg": 10}])
+@pytest.mark.parametrize(
+    "altered",
+    [
+        {"inner_conformity": 0.53},
+        {"outer_conformity": 0.55},
+        {"contact_angle_deg": 10},
+        {"pitch_diameter_mm": 45},
+        {"ball_diameter_mm": 6.5},
+    ],
+)
 def test_k_follows_every_number_of_the_geometry_by_itself(altered: dict[str, float]) -> None:
     koyo = catalog.bearing("koyo_1205")
     (rig,) = rigs(1, rig="gearbox", **altered)
@@ -199,6 +213,15 @@ def test_a_drawn_frequency_and_damping_ratio_hold_whatever_the_factors_of_the_ma
     assert math.sqrt(rig.resonator_stiffness / rig.resonator_mass) == pytest.approx(9000 * 2 * math.pi)
     assert rig.support_damping_y == pytest.approx(2 * 0.03 * 300 * 2 * math.pi * rig.outer_mass)
     assert rig.resonator_damping == pytest.approx(2 * 0.01 * 9000 * 2 * math.pi * rig.resonator_mass)
+
+
+def test_a_factor_of_the_support_s_stiffness_shifts_a_drawn_frequency_and_keeps_a_drawn_damping_ratio() -> None:
+    stated = {"support_frequency_hz": 300, "support_stiffness_x_over_y": 4, "support_damping_ratio": 0.03}
+    (rig,) = rigs(1, rig="gearbox", **stated, factors={"support_stiffness": 1.44})
+    for along, hertz in (("x", 720.0), ("y", 360.0)):
+        stiffness, damping = (getattr(rig, f"support_{what}_{along}") for what in ("stiffness", "damping"))
+        assert math.sqrt(stiffness / rig.outer_mass) == pytest.approx(2 * math.pi * hertz)
+        assert damping / (2.0 * math.sqrt(stiffness * rig.outer_mass)) == pytest.approx(0.03)
 
 
 def test_a_catalogue_bearing_in_a_drawn_rig_keeps_its_numbers() -> None:
@@ -225,6 +248,27 @@ def test_factors_of_the_diameters_scale_those_of_the_catalogue() -> None:
     (rig,) = rigs(rig="gearbox", factors={"pitch_diameter": 1.1, "ball_diameter": 0.9})
     assert rig.bearing.pitch_diameter == pytest.approx(1.1 * 38.75e-3)  # of the Koyo 1205
     assert rig.bearing.ball_diameter == pytest.approx(0.9 * 7.12e-3)
+
+
+def test_balls_that_are_a_share_of_the_pitch_diameter_grow_with_its_factor_and_with_their_own() -> None:
+    (rig,) = rigs(rig="gearbox", ball_diameter_of_pitch=0.2, factors={"pitch_diameter": 1.1, "ball_diameter": 0.9})
+    assert rig.bearing.ball_diameter == pytest.approx(0.9 * 0.2 * 1.1 * 38.75e-3)
+
+
+def test_balls_in_place_of_the_rollers_of_a_catalogue_bearing_have_their_own_law_of_contact() -> None:
+    (rig,) = rigs(rig="ims", elements="balls", inner_conformity=0.52, outer_conformity=0.53)
+    b = rig.bearing
+    assert catalog.rig("ims").bearing.exponent != b.exponent == 1.5
+    expected = load_deflection_factor(b.pitch_diameter, b.ball_diameter, b.contact_angle, 0.52, 0.53)
+    assert b.load_deflection == pytest.approx(expected)
+    (rig,) = rigs(rig="gearbox", elements="rollers", roller_length_of_diameter=1.25)
+    assert rig.bearing.exponent == 10 / 9
+    assert rig.bearing.load_deflection == roller_load_deflection_factor(1.25 * rig.bearing.ball_diameter)
+
+
+def test_a_bearing_too_soft_for_its_rated_load_has_no_film_that_could_damp_it() -> None:
+    with pytest.raises(BadInput, match=r"film_damping_us = 10.*no ball carries the rated load, so no film can damp it"):
+        draw(rig="gearbox", rated_load_n=1e5, load_deflection_n_per_m_to_n=1e5, film_damping_us=10)
 
 
 def test_a_full_bearing_holds_as_many_balls_as_fit_side_by_side() -> None:

@@ -158,6 +158,21 @@ def test_tapers_left_out_are_a_tenth_of_the_spall_where_no_ball_is_rolled_over_i
     assert (spall.entry_taper, spall.exit_taper) == pytest.approx([share * math.radians(40)] * 2)
 
 
+def test_tapers_that_meet_are_refused_for_no_rounding() -> None:
+    arcs = {"extent_deg": {"uniform": [1, 3]}, "entry_taper_share": 0.9, "exit_taper_share": 0.1}
+    scenarios = draw(40, defect=LINE | arcs)
+    spalls = [scenario.scene.spalls[0] for scenario in scenarios]
+    assert any(spall.entry_taper + spall.exit_taper > spall.extent for spall in spalls)
+    assert not any(scenario.redraws for scenario in scenarios)
+
+
+def test_a_spall_may_cover_half_a_turn_and_a_taper_the_whole_spall() -> None:
+    half_turn = EXTENDED | {"extent_deg": 180, "entry_taper_deg": 180, "exit_taper_deg": 0}
+    (scenario,) = draw(defect=half_turn)
+    assert scenario.redraws == ()
+    assert (scenario.scene.spalls[0].extent, scenario.scene.spalls[0].entry_taper) == (math.pi, math.pi)
+
+
 def test_the_settings_of_the_operation_take_one_number_each_in_the_order_of_their_table() -> None:
     high = {"speed_of_rated": 1, "load_of_rated": 1, "unbalance_n": 1, "unbalance_phase_deg": 1, "load_fluctuation": 1}
     high |= {"fluctuation_phase_deg": 1, "cage_angle_deg": 1, "second_cage_angle_deg": 1}
@@ -371,6 +386,14 @@ def test_balls_and_waves_have_a_scale_of_their_own() -> None:
     assert [wave.amplitude for wave in found.waviness] == pytest.approx([2e-6])
 
 
+def test_waves_and_deviations_of_nothing_are_none() -> None:
+    wave = {"race": "inner", "orders": [2, 9], "amplitude_um": {"choice": [0, 0.4]}}
+    found = draw(imperfections={"ball_deviation_um": 0, "waviness": [wave]})[0].scene.imperfections
+    assert found.ball_deviation == ()
+    assert 0 < len(found.waviness) < 8
+    assert all(wave.amplitude > 0.0 for wave in found.waviness)
+
+
 def test_impossible_draws_are_redrawn_and_counted_with_their_reason() -> None:
     defect = {"condition": "line", "extent_deg": {"uniform": [20, 40]}, "depth_um": 12}
     scenarios = draw(40, defect=defect)
@@ -478,8 +501,14 @@ def test_a_resonance_that_is_not_recorded_needs_a_band_of_ones_own() -> None:
     with pytest.raises(BadInput, match="rings at 10548 Hz, too high for a sampling rate of 16384 Hz; allowed: rate_hz"):
         draw_scenario(recipe_of(altered, signal=slow), 0)
     assert draw_scenario(recipe_of(HEALTHY, signal=slow | {"envelope_band_hz": [500, 4000]}), 0).rate == 16384
-    with pytest.raises(BadInput, match="rings at 10548 Hz"):  # whose band, 5 % to either side, is recorded in part
+    # Its band reaches 5 % to either side: to 11075 Hz, of which 10 500 Hz are recorded.
+    with pytest.raises(BadInput, match=r"rings at 10548 Hz.*; allowed: rate_hz above 2215[01], or an"):
         draw_scenario(recipe_of(altered, signal={"rate_hz": 21000, "duration_s": 0.1}), 0)
+
+
+def test_a_record_may_be_as_short_as_sixteen_samples() -> None:
+    signal = {"rate_hz": 16000, "duration_s": 0.001, "envelope_band_hz": [1000, 7000]}
+    assert draw_scenario(recipe_of(HEALTHY, signal=signal), 0).samples == 16
 
 
 def test_the_duration_is_rounded_to_whole_samples() -> None:

@@ -156,6 +156,8 @@ def test_spalls_of_a_machine_that_lie_on_one_another_are_redrawn_with_their_mach
 def test_a_spall_on_any_row_lies_on_each_row_that_the_bearing_has() -> None:
     line = {"condition": "line", "extent_deg": 2, "depth_um": 10, "row": "any"}
     assert {s.scene.spalls[0].row for s in draw_all(recipe_of(12, defect=line))} == {1, 2}
+    even = draw_all(recipe_of(12, defect=line, design="latin_hypercube"))
+    assert Counter(scenario.scene.spalls[0].row for scenario in even) == {1: 6, 2: 6}  # a record to each twelfth
     single = draw_all(recipe_of(12, defect=line, machine={"rig": "cwru"}))
     assert {(s.scene.spalls[0].row, len(s.redraws)) for s in single} == {(1, 0)}
 
@@ -165,13 +167,14 @@ def test_the_streams_of_a_block_are_numbered_as_in_every_corpus_made_so_far() ->
 
     def open_block(block: int, path: int) -> np.random.Generator:
         opened.append((block, path))
-        return np.random.default_rng(0)
+        return np.random.default_rng(5)
 
     three, two = (Balanced(options, (1.0,) * len(options)) for options in (("a", "b", "c"), ("p", "q")))
     turns = Turns(Turn(7), open_block)
     first = three.options.index(turns.take(three))
     second = two.options.index(turns.take(two))
     turns.take(two)
+    assert (first, second) == (2, 1)  # the number of an option counts, which would not show in the first one's, 0
     code = 1024 + first + 1
     # The eighth comes in the third block of three, after two of its own option: in the second block of two.
     assert opened == [(2, 1), (1, code), (0, (1024 * code + second + 1) % 2**32)]

@@ -32,6 +32,14 @@ def test_the_threshold_is_passed_by_one_healthy_record_in_twenty():
     assert rule.of_several == 1.0
 
 
+def test_of_healthy_records_the_higher_family_sets_the_threshold_whichever_it_is():
+    level, low = np.linspace(1.0, 3.0, 1001), np.full(1001, 0.0)
+    by_turns = np.arange(1001) % 2 == 0
+    healthy = rows(np.exp(np.where(by_turns, level, low)), np.exp(np.where(by_turns, low, level)))
+    rule = fit_rule(healthy, *one_axis(1001))
+    assert np.log(rule.threshold) == pytest.approx(1.0 + 2.0 * 0.95)  # either family alone passes 2.8 in 5 % of them
+
+
 def test_it_names_the_higher_family_and_only_above_the_threshold():
     rule = Rule(1.0)
     assert rule.locations(np.array([[5.0, 2.0], [2.0, 7.0], [0.9, 0.8]])).tolist() == ["outer", "inner", "none"]

@@ -239,3 +239,12 @@ def test_two_bearings_of_each_answer_are_enough():
     faulty = classes != "healthy"
     stage = Stage(learner("logistic")).fit(table, faulty, 2 * faulty + np.arange(100) // 5 % 2)
     assert np.mean((stage.held_out > 0.5) == faulty) > 0.7
+
+
+def test_what_is_held_out_comes_from_no_bearing_that_was_learned_from():
+    """Each bearing has two rows that are alike and says nothing of any other: who knows one row knows the other."""
+    generator = np.random.default_rng(4)
+    groups = np.repeat(np.arange(100), 2)
+    table, answer = generator.standard_normal((100, 3))[groups], (generator.uniform(size=100) < 0.5)[groups]
+    stage = Stage(DecisionTreeClassifier(random_state=0)).fit(table, answer, groups)
+    assert np.mean((stage.held_out > 0.5) == answer) < 0.65  # half, and three times its scatter over 100 bearings

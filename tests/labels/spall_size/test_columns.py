@@ -274,6 +274,15 @@ def test_profiles_run_through_the_steps():
     assert found["exit_high_0.1_to_0.17"] == pytest.approx([0.0], abs=1e-6)
 
 
+def test_windows_of_a_profile_grow_with_the_lag_of_their_own_pair_and_are_a_sample_wide_at_least():
+    found = leading(BLIND, [LAG, 200.0, 10.0], [1.0, 0.5, 0.2])
+    # Of 31 samples from 100 to 70 before the exit eleven lie in the rumble; of one pair all, and so of the other.
+    expected = [math.log(100.0), math.log((11.0 * 100.0 + 20.0) / 31.0), math.log(100.0)]
+    assert found["exit_all_-0.5_to_-0.35"] == pytest.approx(expected, abs=1e-6)
+    # From 0.5 before the exit to 0.5 behind it, and the sample there: 1.5 of them, of two, half a sample behind.
+    assert found["exit_all_-0.02_to_0.02"][2] == pytest.approx(math.log((1.5 * 100.0 + 0.5) / 2.0), abs=1e-6)
+
+
 def test_rivals_are_the_best_pairs_that_say_something_else():
     # Of the four lags 100 and 102 say the same (within 3 %), and so only the first of them leads.
     found = leading(BLIND, [100.0, 102.0, 50.0, 130.0], [0.8, 0.6, 0.4, 0.2])

@@ -83,6 +83,54 @@ def test_five_passes_are_tracked_and_fewer_are_not(rough_passes, passes, tracked
     assert (found is not None) == tracked
 
 
+def bursts(cell, height, count):
+    """The energy of `count` cells of the tracker, five samples each, all 1 but at a `cell` with an event."""
+    energy = np.ones(count)
+    energy[np.asarray(cell)] = height
+    return np.repeat(energy, 5)
+
+
+def cells_of(track):
+    """Cells in which the events of a track lie by its pattern."""
+    return np.round(track.time * RATE / 5.0 - 0.5 + track.pattern.argmax() - CELLS // 2).astype(int)
+
+
+@pytest.mark.parametrize(
+    ("late", "all_found"),
+    [(8 * (np.arange(24) % 2), True), (13 * (np.arange(24) % 2), False), (14 * (np.arange(24) >= 12), False)],
+)
+def test_steps_may_differ_by_four_per_cent_from_their_mean_and_no_more(late, all_found):
+    places = 100 + CELLS * np.arange(24) + late  # 8 cells are 3.1 % of 256, 13 and 14 are 5.1 and 5.5 %
+    track = track_passes(bursts(places, 1e3, places[-1] + 100), RATE, 1280 / RATE)
+    assert np.isin(places[1:-1], cells_of(track)).all() == all_found
+    assert np.abs(np.diff(track.time) / track.period - 1.0).max() < 0.045  # and what is left of a cell
+
+
+def test_something_weaker_beside_the_place_of_a_missing_event_does_not_pull_a_pass_there():
+    places = 100 + CELLS * np.arange(24)
+    height = np.where(np.arange(24) == 12, 5.0, 1e3)
+    track = track_passes(bursts(places + 9 * (height < 1e3), height, places[-1] + 100), RATE, 1280 / RATE)
+    assert np.abs(cells_of(track)[:, None] - places).min(axis=0).max() == 0
+
+
+@pytest.mark.parametrize("wrong", [0.97, 1.03])
+def test_through_silence_passes_go_on_as_regularly_as_they_came(wrong):
+    places = 100 + CELLS * np.arange(24)
+    energy = bursts(places, 1e3, CELLS * 28)  # four passes more in which nothing is heard
+    track = track_passes(energy, RATE, wrong * 1280 / RATE)
+    late = track.time > (places[-1] + 10) * 5.0 / RATE
+    assert late.sum() >= 3
+    assert np.diff(track.time[late]) * RATE == pytest.approx(np.full(late.sum() - 1, 1280.0), abs=10.0)  # two cells
+
+
+def test_silent_passes_leave_the_pattern_of_the_others_as_it_is():
+    places = 100 + CELLS * np.arange(24)
+    heard = places[np.arange(24) % 4 != 2]
+    track = track_passes(bursts(heard, 1e3, places[-1] + 100), RATE, 1280 / RATE)
+    # An event 1000 times as strong as what is there otherwise: ln(1 + 1000) above ln(1 + 1).
+    assert np.ptp(track.pattern) == pytest.approx(math.log(1001.0 / 2.0), rel=0.02)
+
+
 def test_too_short_a_record_has_no_track():
     assert track_passes(np.ones(1000), RATE, PERIOD) is None
 

@@ -155,6 +155,12 @@ def test_a_rough_tukey_path_is_the_window_plus_the_natural_spline_through_its_va
     assert np.std(at_knots) == pytest.approx(np.std(spall.roughness_values), rel=0.01)  # nothing is filtered twice
 
 
+@pytest.mark.parametrize("profile", ["tukey", "ball_path"])
+def test_a_spall_with_roughness_is_rough_and_one_without_is_not_whatever_its_profile(gearbox, profile):
+    uneven, smooth = rough("outer", profile), tukey(profile=profile)
+    assert [is_rough(spall, gearbox.bearing) for spall in (uneven, smooth)] == [True, False]
+
+
 def test_a_smooth_spall_has_no_roughness_curve():
     assert roughness_curve(tukey()) is None
 

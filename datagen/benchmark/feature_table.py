@@ -46,7 +46,8 @@ LABELS_SHOWN = (
     "duration_s",
     "snr_db",
 )
-OF_ROW = ("axis", "window", "noisy", "reason", "levelled", "despiked", "shocks_cut", "in_mains", "found_speed_rpm")
+OF_RECORD = ("reason", "levelled", "despiked", "shocks_cut", "in_mains", "in_shaft")
+OF_ROW = ("axis", "window", "noisy", *OF_RECORD, "found_speed_rpm")
 COLUMNS = ("corpus", *LABELS_SHOWN, "class", *OF_ROW, *FEATURE_NAMES)
 
 
@@ -122,7 +123,8 @@ def _axes_by_shard(folder: Path, labels: pandas.DataFrame) -> dict[str, list[str
 def _record_rows(found: RecordRows, axes: Sequence[str], as_learned: bool) -> Iterator[tuple[Any, ...]]:
     """What OF_ROW and the features are in each row of one record."""
     facts = found.facts
-    of_record = (facts.reason, facts.jumps, facts.glitches, facts.shocks, " ".join(facts.in_mains))
+    hidden = (" ".join(facts.in_mains), " ".join(facts.in_shaft))
+    of_record = (facts.reason, facts.jumps, facts.glitches, facts.shocks, *hidden)
     if not found.rows or (facts.reason and not as_learned):
         nothing = [math.nan] * (1 + len(FEATURE_NAMES))
         yield ("", 0, False, *of_record, *nothing)

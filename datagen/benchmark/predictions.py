@@ -21,6 +21,7 @@ FACTS = (
     "despiked",
     "shocks_cut",
     "in_mains",
+    "in_shaft",
     "found_speed_rpm",
 )
 SAID = ("location", "score", "alarm")
@@ -48,9 +49,9 @@ class Prediction:
     """What is known about a record, and the answer of each of the `models`.
 
     `truth` is its location, `rejected` why it was rejected ("" if it was not). So many jumps were `levelled`, glitches
-    replaced (`despiked`) and `shocks_cut`. `in_mains` names the races whose faults hide among multiples of the mains
-    ("", "outer", "inner" or "outer inner"), `found_speed_rpm` the shaft speed at which lines were looked for (None
-    without features).
+    replaced (`despiked`) and `shocks_cut`. `in_mains` and `in_shaft` name the races whose faults hide among multiples
+    of the mains and of the shaft's speed ("", "outer", "inner" or "outer inner"), `found_speed_rpm` the shaft speed at
+    which lines were looked for (None without features).
     """
 
     record: int
@@ -62,6 +63,7 @@ class Prediction:
     despiked: int
     shocks_cut: int
     in_mains: str
+    in_shaft: str
     found_speed_rpm: float | None
     models: dict[str, ModelAnswer]
 
@@ -88,6 +90,7 @@ def record_predictions(tested: Tested) -> list[Prediction]:
             despiked=facts.glitches,
             shocks_cut=facts.shocks,
             in_mains=" ".join(facts.in_mains),
+            in_shaft=" ".join(facts.in_shaft),
             found_speed_rpm=None if facts.found_rpm is None else float(f"{facts.found_rpm:.6g}"),
             models={said.name: _answer(said, place) for said in tested.verdicts},
         )

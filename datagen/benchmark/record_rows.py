@@ -22,7 +22,7 @@ from labels.dead_sensor import is_dead
 from labels.features.analysis import analyse
 from labels.features.conditioning import FEWEST_SAMPLES_USED
 from labels.features.kinematics import Kinematics
-from labels.features.known_lines import races_in_mains
+from labels.features.known_lines import races_in_mains, races_in_shaft
 from labels.features.mending import mended
 from labels.features.table import FEATURE_NAMES, feature_values
 from labels.features.turning import Turning
@@ -59,9 +59,10 @@ class RecordFacts:
     """What reading one record showed, beside its rows.
 
     `reason` says why it must not be classified, "" if it may be. So many `jumps` were levelled in it, `glitches`
-    replaced and `shocks` cut; `in_mains` are the races whose faults hide among multiples of the mains. `found_rpm` is
-    the speed of the shaft that was found, rpm: the median over the rows without added noise, None without any. It is
-    `far_from_stated` if it lies at the edge of what is searched beside the stated speed.
+    replaced and `shocks` cut; `in_mains` and `in_shaft` are the races whose faults hide among multiples of the mains
+    and of the shaft's speed. `found_rpm` is the speed of the shaft that was found, rpm: the median over the rows
+    without added noise, None without any. It is `far_from_stated` if it lies at the edge of what is searched beside the
+    stated speed.
     """
 
     reason: str = ""
@@ -69,6 +70,7 @@ class RecordFacts:
     glitches: int = 0
     shocks: int = 0
     in_mains: tuple[str, ...] = ()
+    in_shaft: tuple[str, ...] = ()
     found_rpm: float | None = None
     far_from_stated: bool = False
 
@@ -123,6 +125,7 @@ def record_rows(
         glitches=glitches,
         shocks=shocks,
         in_mains=in_mains,
+        in_shaft=races_in_shaft(kinematics, step),
         found_rpm=found_rpm,
         far_from_stated=found_rpm is not None and _is_far(found_rpm, kinematics),
     )

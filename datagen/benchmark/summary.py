@@ -54,6 +54,7 @@ def summarise(tested: Tested) -> CorpusScores:
         despiked=_taken_out(tested, "glitches"),
         shocks_cut=_taken_out(tested, "shocks"),
         in_mains={race: sum(race in facts.in_mains for facts in tested.facts) for race in RACES},
+        in_shaft={race: sum(race in facts.in_shaft for facts in tested.facts) for race in RACES},
         far_from_stated=sum(facts.far_from_stated for facts in tested.facts),
         models={verdicts.name: _scores(tested, verdicts, rule) for verdicts in tested.verdicts},
     )

@@ -28,6 +28,10 @@ if TYPE_CHECKING:
 Option, Argument = typer.Option, typer.Argument
 AS_USUAL = Options()
 IN_MAINS = "balls pass the {race} race at a multiple of 50 or 60 Hz, which is not counted: a fault of it is hardly seen"
+IN_SHAFT = (
+    "balls pass the {race} race at a multiple of the shaft's speed, which is not counted: a fault of it is hardly seen "
+    "unless the cage slips"
+)
 FAR_FROM_STATED = (
     "the shaft was found about as far from its stated speed as is searched: if that is wrong by still more, lines of "
     "one race are taken for those of the other"
@@ -154,9 +158,10 @@ def print_results(tests: list[CorpusResults]) -> None:
         for reason, count in found.rejections.items():
             print(f"  rejected   {count}: {reason}")
         print_mended(found)
-        for race, count in found.in_mains.items():
-            if count:
-                print(f"  in mains   {count}: {IN_MAINS.format(race=race)}")
+        for name, counts, meaning in (("in mains", found.in_mains, IN_MAINS), ("in shaft", found.in_shaft, IN_SHAFT)):
+            for race, count in counts.items():
+                if count:
+                    print(f"  {name}   {count}: {meaning.format(race=race)}")
         if found.far_from_stated:
             print(f"  speeds     {found.far_from_stated}: {FAR_FROM_STATED}")
         for noisy in test.noise if scored else ():

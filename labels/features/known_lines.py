@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from labels.features.families import HARMONICS
 from labels.features.kinematics import Kinematics
 from physics.arrays import Array
 from physics.bearing import RACES
@@ -71,6 +72,17 @@ def races_in_mains(kinematics: Kinematics, step: float) -> tuple[str, ...]:
     orders = np.array([kinematics.pass_order(race) for race in RACES], dtype=np.float64)
     hidden = _taken_for_mains(orders * kinematics.shaft_hz, step)
     return tuple(race for race, is_hidden in zip(RACES, hidden, strict=True) if is_hidden)
+
+
+def races_in_shaft(kinematics: Kinematics, step: float) -> tuple[str, ...]:
+    """The races whose ball pass line and harmonics all count as the shaft's in a spectrum of components `step`
+    (Hz) apart: a fault of that race is hardly seen unless the cage slips, which moves them."""
+    margin = multiple_margin(step, kinematics.shaft_hz) / kinematics.shaft_hz
+    if margin > WIDEST_MARGIN:
+        return ()
+    family = np.arange(1.0, HARMONICS + 1.0)
+    orders = {race: kinematics.pass_order(race) * family for race in RACES}
+    return tuple(race for race, order in orders.items() if (np.abs(order - np.round(order)) <= margin).all())
 
 
 def _taken_for_mains(frequency: NDArray[Any], step: float) -> NDArray[np.bool_]:

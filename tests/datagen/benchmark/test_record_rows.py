@@ -97,6 +97,19 @@ def test_a_race_whose_ball_passes_fall_on_the_mains_is_told(speed_rpm, hidden):
     assert found.facts.in_mains == hidden
 
 
+@pytest.mark.parametrize(
+    ("ball_diameter", "hidden"),
+    [
+        (8.5e-3, ("outer", "inner")),  # 3 and 5 orders exactly
+        (8.54e-3, ("outer", "inner")),  # 2.9953 and 5.0047: the fourth line is 0.019 orders off, of 0.025
+        (8.56e-3, ()),  # 2.9929 and 5.0071: the fourth line is 0.028 orders off
+    ],
+)
+def test_a_race_whose_ball_passes_fall_on_the_shaft_is_told(ball_diameter, hidden):
+    geometry = labels(balls=8, pitch_diameter=34e-3, ball_diameter=ball_diameter)
+    assert record_rows(shaking(int(4 * RATE)), geometry, Reading()).facts.in_shaft == hidden
+
+
 def test_over_the_angle_of_a_changing_shaft_nothing_falls_on_the_mains():
     time = np.arange(int(4 * RATE)) / RATE
     turning = Turning(2.0 * np.pi * (45.0 * time + 1.3 * time**2))

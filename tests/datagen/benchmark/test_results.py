@@ -19,6 +19,7 @@ OF_A_CORPUS = [
     "despiked",
     "shocks_cut",
     "in_mains",
+    "in_shaft",
     "far_from_stated",
     "models",
 ]
@@ -26,9 +27,9 @@ OF_A_CORPUS = [
 
 def test_a_report_holds_plain_numbers_wherever_scores_are_and_parts_of_a_group_like_the_rest(made_scores):
     scores = CorpusScores(
-        "out/a", True, 1, {"none": 1}, {}, {}, {}, {}, {}, 0, {"rule": made_scores(detection_auc=HALF)}
+        "out/a", True, 1, {"none": 1}, {}, {}, {}, {}, {}, {}, 0, {"rule": made_scores(detection_auc=HALF)}
     )
-    said = Prediction(3, "x", "b", "none", "", 0, 0, 0, "", 1798.5, {"rule": ModelAnswer("none", 0.5, 1.0)})
+    said = Prediction(3, "x", "b", "none", "", 0, 0, 0, "", "inner", 1798.5, {"rule": ModelAnswer("none", 0.5, 1.0)})
     test = CorpusResults(scores, [said], [NoisyScores(-5.0, 2, scores)])
     results = Results("out/t", Options(), {"training_records": 7, "importances": {}}, [test], 1.5)
     found = json.loads(plain_json(results.to_dict()))
@@ -41,7 +42,14 @@ def test_a_report_holds_plain_numbers_wherever_scores_are_and_parts_of_a_group_l
     assert held["models"]["rule"]["detection_auc"] == {"value": 0.5, "low": 0.25, "high": 0.75}
     assert "minus_rule" not in held["models"]["rule"]
     facts = {"record": 3, "recording": "x", "bearing_id": "b", "truth": "none", "rejected": ""}
-    counts = {"levelled": 0, "despiked": 0, "shocks_cut": 0, "in_mains": "", "found_speed_rpm": 1798.5}
+    counts = {
+        "levelled": 0,
+        "despiked": 0,
+        "shocks_cut": 0,
+        "in_mains": "",
+        "in_shaft": "inner",
+        "found_speed_rpm": 1798.5,
+    }
     assert held["predictions"] == [facts | counts | {"rule": {"location": "none", "score": 0.5, "alarm": 1.0}}]
 
 

@@ -16,9 +16,9 @@ NEIGHBOURS = 9
 NEAR_WHOLE = 0.2
 # An interval of so many usual ones lacks pulses in any case, as no shaft slows down so much from one pulse to the next.
 LONG = 3.0
-# Wrong pulses that are more frequent than this (a turn) belong to the wheel, as a missing tooth does.
+# Wrong pulses that are more frequent than this (a turn) may belong to the wheel, as missing teeth do.
 MOST_A_TURN = 0.5
-# Share of the gaps that must be a turn apart, as those of a wheel with one missing tooth, or a few side by side.
+# Share of the odd pulses that must be odd a turn later too if they do. At 5 % lost by chance 5 % are.
 REGULAR = 0.9
 # Share of the pulses that may be missing or double; a signal with more of them may not be a tach's.
 MOST_MENDED = 0.1
@@ -46,7 +46,8 @@ def rising_edges(pulses: NDArray[np.float64], threshold: float | None = None) ->
 
 def mended(times: Array, pulses_per_rev: float) -> tuple[Array, int]:
     """Times (N,), s, of pulses without those that came twice and with those that were lost, evenly between their
-    neighbours, and how many these were; unchanged, with 0, if so many are odd that the wheel itself is irregular.
+    neighbours, and how many these were; unchanged, with 0, if the odd ones come again turn after turn, as those of a
+    wheel that is irregular itself.
 
     Pulses of teeth that a wheel lacks are put in, and not counted, if `pulses_per_rev` counts them.
     """
@@ -59,18 +60,26 @@ def mended(times: Array, pulses_per_rev: float) -> tuple[Array, int]:
     counts[(np.abs(ratio - counts) > NEAR_WHOLE) & (ratio < LONG)] = 1
     wrong = times.size - single.size + int((counts > 1).sum())
     numbers = np.concatenate([[0], np.cumsum(counts)])
-    own = wrong > MOST_A_TURN * times.size / pulses_per_rev
-    if wrong == 0 or (own and not _once_a_turn(numbers[:-1][counts > 1], pulses_per_rev)):
+    frequent = wrong > MOST_A_TURN * times.size / pulses_per_rev
+    lacking = frequent and _come_again(numbers[:-1][counts > 1], pulses_per_rev)
+    if wrong == 0 or (frequent and not lacking and _come_again(_odd(times), pulses_per_rev)):
         return times, 0
     whole = np.interp(np.arange(numbers[-1] + 1), numbers, single)
-    return whole, times.size - single.size + (0 if own else int((counts - 1).sum()))
+    return whole, times.size - single.size + (0 if lacking else int((counts - 1).sum()))
 
 
-def _once_a_turn(gaps: NDArray[np.int64], pulses_per_rev: float) -> bool:
-    """Whether the gaps behind the pulses of these numbers (N,) are the one of a wheel whose `pulses_per_rev` count the
-    teeth that it lacks there."""
-    between = np.diff(gaps)
-    return bool(between.size and np.mean(between == round(pulses_per_rev)) >= REGULAR)
+def _odd(times: Array) -> NDArray[np.int64]:
+    """Numbers of the pulses, at `times` (N,), behind which the interval is not the usual one."""
+    interval = np.diff(times)
+    usual = median_filter(interval, NEIGHBOURS, mode="mirror")
+    return np.flatnonzero(np.abs(interval / usual - 1.0) > NEAR_WHOLE)
+
+
+def _come_again(numbers: NDArray[np.int64], pulses_per_rev: float) -> bool:
+    """Whether the pulses of these `numbers` (N,) are the same ones in nearly every turn, and so are of the wheel."""
+    turn = round(pulses_per_rev)
+    followed = numbers[numbers + turn <= numbers.max(initial=0)]
+    return bool(followed.size and np.mean(np.isin(followed + turn, numbers)) >= REGULAR)
 
 
 def _without_doubles(times: Array) -> Array:

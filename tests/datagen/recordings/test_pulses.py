@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from datagen.recordings.pulses import mended, rising_edges
+from datagen.recordings.pulses import MOST_MENDED, mended, rising_edges
 
 
 def test_edges_of_a_sine_are_found_where_it_rises_through_its_middle() -> None:
@@ -87,15 +87,46 @@ def test_a_wheel_whose_missing_teeth_are_counted_among_its_pulses_has_them_put_i
     np.testing.assert_allclose(found, turning, atol=1e-3 / (20.0 * teeth))  # of an interval
 
 
-@pytest.mark.parametrize(("lost", "filled"), [([100], True), ([100, 300], False)])
-def test_nine_in_ten_gaps_of_a_wheel_must_be_a_turn_apart(lost: list[int], filled: bool) -> None:
+@pytest.mark.parametrize(("lost", "count"), [([100], 0), ([100, 300, 600], 0), ([100, 300, 600, 905], 29 + 4)])
+def test_nine_in_ten_gaps_of_a_wheel_must_come_again_a_turn_later(lost: list[int], count: int) -> None:
     numbers = np.arange(30 * 36 - 1)
     whole = numbers / 720.0
-    # 28 times a turn from gap to gap; each pulse that is lost elsewhere makes two other distances of one.
+    # Of the 29 gaps of the wheel 28 are followed by another; of those of pulses that are lost elsewhere none.
     times = whole[(numbers % 36 < 35) & ~np.isin(numbers, lost)]
-    found, count = mended(times, 36.0)
+    found, counted = mended(times, 36.0)
+    assert counted == count
+    np.testing.assert_allclose(found, whole, atol=1e-12)
+
+
+def test_a_wheel_that_lacks_teeth_in_several_places_has_them_put_in() -> None:
+    numbers = np.arange(30 * 36 - 1)
+    whole = numbers / 720.0
+    found, count = mended(whole[~np.isin(numbers % 36, [5, 17, 18, 30])], 36.0)
     assert count == 0
-    np.testing.assert_allclose(found, whole if filled else times, atol=1e-12)
+    np.testing.assert_allclose(found, whole, atol=1e-12)
+
+
+@pytest.mark.parametrize("share", [0.002, 0.03, 0.08])
+def test_pulses_of_an_encoder_that_are_lost_now_here_now_there_are_put_back_and_counted(share: float) -> None:
+    whole = np.arange(5000) / 2500.0  # a hundred a turn
+    lost = np.flatnonzero(np.random.default_rng(3).uniform(size=4998) < share) + 1
+    found, count = mended(np.delete(whole, lost), 100.0)
+    assert count == lost.size
+    np.testing.assert_allclose(found, whole, atol=1e-12)
+
+
+def test_noise_has_more_pulses_to_mend_than_a_tach_may_have() -> None:
+    edges = rising_edges(np.random.default_rng(4).standard_normal(50_000)) / 25_600.0
+    found, count = mended(edges, 1024.0)
+    assert count > MOST_MENDED * found.size
+
+
+def test_a_wheel_of_slots_in_uneven_places_is_left_as_it_is() -> None:
+    slots = np.sort(np.random.default_rng(5).uniform(size=12))
+    times = (np.arange(40)[:, None] + slots).ravel() / 25.0
+    found, count = mended(times, 12.0)
+    assert count == 0
+    assert found is times
 
 
 def test_of_two_pulses_at_one_instant_one_is_left_out() -> None:
@@ -123,14 +154,10 @@ def test_a_gap_near_a_whole_number_of_intervals_lacks_pulses_and_one_of_three_in
     assert count == lost
 
 
-@pytest.mark.parametrize(("lost", "expected"), [([9, 30, 47, 66], 4), ([9, 22, 30, 47, 66], 0)])
-def test_pulses_that_are_lost_more_often_than_every_other_turn_are_the_wheels_own(
-    lost: list[int], expected: int
-) -> None:
-    times = np.delete(np.arange(80) / 160.0, lost)  # eight a turn
-    found, count = mended(times, 8.0)
-    assert count == expected
-    assert found.size == (80 if expected else times.size)
+@pytest.mark.parametrize("lost", [[9, 30, 47, 66], [9, 22, 30, 47, 66]])
+def test_pulses_that_are_lost_in_other_places_from_turn_to_turn_are_not_the_wheels_own(lost: list[int]) -> None:
+    found, count = mended(np.delete(np.arange(80) / 160.0, lost), 8.0)  # eight a turn
+    assert (found.size, count) == (80, len(lost))
 
 
 @pytest.mark.parametrize(

@@ -28,6 +28,7 @@ from datagen.corpus_files.manifest import Manifest, read_manifest
 from datagen.corpus_files.open_shards import OpenShards
 from datagen.errors import BadInput
 from datagen.files.places import from_home
+from labels.schema import UNKNOWN
 
 if TYPE_CHECKING:
     import netCDF4
@@ -236,6 +237,8 @@ class Corpus:
         limit = f"of no {stratify} are there more than {most} records" if most < bearings else "each fold tests its own"
         allowed = f"a whole number from 2 to {most}" if most > 1 else "none"
         bearings_text = f"its records are of {bearings} bearings" if bearings != 1 else "its records are of one bearing"
+        if (table["bearing_id"] == UNKNOWN).all():
+            bearings_text = "the bearing_id of its records is unknown, so that they count as one bearing"
         raise BadInput(f"{bearings_text}, and {limit}", str(self.folder), "count", count, allowed)
 
 

@@ -132,7 +132,8 @@ def _from_home(value: Any) -> Any:
 
 def _check_json(json_file: Path | None, **others: Any) -> None:
     """Refuse a file of results that cannot be written, or that would be lost or destroy another: one that the `others`
-    name too, or one of the corpus in a folder that they name. Before any work is done."""
+    name too, one of the corpus in a folder that they name, or one that holds anything but JSON. Before any work is
+    done."""
     if json_file is None:
         return
     require_file(json_file, "--json")
@@ -141,6 +142,15 @@ def _check_json(json_file: Path | None, **others: Any) -> None:
     if os.path.realpath(json_file) in known and (json_file.is_file() or not json_file.exists()):
         problem = "the results would replace what another option or argument names"
         raise BadInput(problem, field="--json", value=str(json_file), allowed="a file of its own")
+    if json_file.is_file() and not _may_be_json(json_file):
+        problem = "this file holds something else than JSON, which would be lost"
+        raise BadInput(problem, field="--json", value=str(json_file), allowed="a new file, or one of earlier results")
+
+
+def _may_be_json(path: Path) -> bool:
+    """Whether a file is empty or begins as our results do."""
+    with path.open("rb") as file:
+        return file.read(64).lstrip()[:1] in (b"", b"{", b"[")
 
 
 def _is_place(named: Any) -> bool:

@@ -35,6 +35,10 @@ SLOWEST_LIKELY_RPM = 100.0
 FASTEST_LIKELY_RPM = 60_000.0
 # Pitch diameter, mm, below which a stated one may be meant in inches: those of dental drills have more.
 SMALLEST_PITCH_MM = 4.0
+# Balls, by orders that are stated alone, above which these may be frequencies in Hz: few bearings have more.
+MOST_LIKELY_BALLS = 60.0
+# Extent, mm, below which a stated one may be meant in inches or m: nobody measures shorter spalls.
+SHORTEST_LIKELY_MM = 0.02
 LOUD = "louder than machines are, as if `scale` or `unit` were wrong"
 OFFSET = f"with a mean above {LARGEST_OFFSET:g} times the vibration around it, as of gravity or a sensor's bias"
 CLIPPED = "with peaks cut off, as if the recorder's range were too small"
@@ -142,14 +146,22 @@ def speed_doubts(labels: Mapping[str, Any], turns: float, settings: Container[st
 
 
 def geometry_doubts(labels: Mapping[str, Any]) -> dict[str, str]:
-    """Says so, with the figure, if the bearing of the record with these `labels` is smaller than bearings are; empty if
-    not, or if its size is unknown."""
-    pitch_mm = 1e3 * labels.get("pitch_diameter", math.nan)
-    if not pitch_mm < SMALLEST_PITCH_MM:
-        return {}
-    return {
-        f"with a bearing of less than {SMALLEST_PITCH_MM:g} mm pitch diameter, as if in inches": f"{pitch_mm:.4g} mm"
-    }
+    """Says so, with the figure, if the bearing of the record with these `labels` is smaller than bearings are or by its
+    orders alone has more balls, or if the defect is shorter than anybody measures; empty if not, or if unknown."""
+    doubts = {}
+    pitch_mm, extent_mm = 1e3 * labels.get("pitch_diameter", math.nan), labels.get("extent_mm", math.nan)
+    if pitch_mm < SMALLEST_PITCH_MM:
+        small = f"with a bearing of less than {SMALLEST_PITCH_MM:g} mm pitch diameter, as if in inches"
+        doubts[small] = f"{pitch_mm:.4g} mm"
+    outer = labels.get("bpfo", math.nan)
+    balls = math.nan if "balls" in labels else outer + labels.get("bpfi", outer)
+    if balls > MOST_LIKELY_BALLS:
+        full = f"with a bearing of more than {MOST_LIKELY_BALLS:g} balls, as if `bpfo` and `bpfi` were in Hz"
+        doubts[full] = f"{balls:.4g} balls"
+    if extent_mm < SHORTEST_LIKELY_MM:
+        short = f"with a defect shorter than {SHORTEST_LIKELY_MM:g} mm, as if `extent_mm` were in inches or m"
+        doubts[short] = f"{extent_mm:.4g} mm"
+    return doubts
 
 
 def _stated(labels: Mapping[str, Any]) -> str:

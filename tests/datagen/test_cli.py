@@ -291,6 +291,19 @@ def test_results_do_not_replace_what_another_option_or_argument_names(tiny_recip
     assert run("schema", "--out", os.devnull, "--json", os.devnull).exit_code == 0
 
 
+def test_results_replace_earlier_ones_and_no_file_of_another_kind(tmp_path: Path) -> None:
+    recorded, results = tmp_path / "acc_00001.csv", tmp_path / "results.txt"
+    recorded.write_text("0.1,0.2\n")
+    results.write_text("")
+    code, _, message = run("catalog", "--json", recorded)
+    assert code == 2
+    assert f'--json = "{recorded}": this file holds something else than JSON, which would be lost' in message
+    assert recorded.read_text() == "0.1,0.2\n"
+    for _ in range(2):  # first of an empty file
+        assert run("catalog", "--json", results).exit_code == 0
+        assert json.loads(results.read_text())
+
+
 def test_json_of_results_has_null_where_a_number_is_not_finite() -> None:
     assert json.loads(plain_json({"a": (1, float("nan")), 2: {"b": float("inf")}})) == {
         "a": [1, None],

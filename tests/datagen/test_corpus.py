@@ -227,6 +227,13 @@ def test_folds_that_cannot_be_are_refused_with_what_can(options: tuple[Any, ...]
     assert message in str(caught.value)
 
 
+def test_records_of_unknown_bearings_cannot_be_parted_and_the_message_says_why(corpus: Corpus) -> None:
+    unknown = Corpus(corpus.folder)
+    unknown.labels["bearing_id"] = "unknown"
+    with pytest.raises(BadInput, match="the bearing_id of its records is unknown, so that they count as one bearing"):
+        unknown.folds(3, "rate_hz")
+
+
 @pytest.mark.parametrize("values", [[1.0, np.nan] * 7, [np.nan] * 14, np.array([True, np.nan] * 7, dtype=object)])
 def test_folds_may_be_alike_in_a_label_that_is_unknown_of_some_records_or_all(values: Any, corpus: Corpus) -> None:
     partly_known = Corpus(corpus.folder)

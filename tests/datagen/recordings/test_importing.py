@@ -639,6 +639,42 @@ def test_a_bearing_stated_in_inches_comes_in_with_a_warning(
 
 
 @pytest.mark.parametrize(
+    ("orders", "message"),
+    [
+        # A 6203 at 25 Hz: 3.0544 and 4.9456 orders.
+        (
+            "bpfo = 76.36\nbpfi = 123.64\n",
+            "1 with a bearing of more than 60 balls, as if `bpfo` and `bpfi` were in Hz: a (200 balls)\n",
+        ),
+        ("bpfo = 27.1\nbpfi = 32.9\n", ""),
+        (
+            "bpfo = 27.1\nbpfi = 33.9\n",
+            "1 with a bearing of more than 60 balls, as if `bpfo` and `bpfi` were in Hz: a (61 balls)\n",
+        ),
+        ("bearing = {balls = 64, ball_diameter_mm = 8, pitch_diameter_mm = 300}\n", ""),
+    ],
+)
+def test_orders_that_may_be_in_hz_come_in_with_a_warning(orders: str, message: str, mat: Mat, tmp_path: Path) -> None:
+    mat("a.mat")
+    assert told_of(f'files = "*.mat"\nrate_hz = 1000\ny = "sig"\n{orders}', tmp_path) == message
+
+
+@pytest.mark.parametrize(
+    ("extent_mm", "message"),
+    [
+        (0.007, "1 with a defect shorter than 0.02 mm, as if `extent_mm` were in inches or m: a (0.007 mm)\n"),
+        (0.021, ""),
+    ],
+)
+def test_a_defect_shorter_than_anybody_measures_comes_in_with_a_warning(
+    extent_mm: float, message: str, mat: Mat, tmp_path: Path
+) -> None:
+    mat("a.mat")
+    defect = f'location = "outer"\nextent_mm = {extent_mm}\n'
+    assert told_of(f'files = "*.mat"\nrate_hz = 1000\ny = "sig"\n{defect}', tmp_path) == message
+
+
+@pytest.mark.parametrize(
     ("kind", "scale", "message"),
     [
         (np.int16, "", "1 in whole numbers of .wav without `scale`, taken as ±1 g at full scale: a\n"),

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from labels.load_dips import load_dips
 from physics.arrays import Array, Flags
-from physics.contact_events import contact_events
+from physics.contact_events import contact_events, no_contact_events
 from physics.paths.passages import Passages, passages
 from physics.paths.profile import build_path
 from physics.scene import Scene
@@ -84,12 +84,9 @@ def _no_passes() -> PassTable:
 def _passes_over(scene: Scene, changes: ContactChanges | None, duration: float, defect: int) -> PassTable:
     row = scene.spalls[defect].row
     ball, entry, deepest, leave = _crossings(scene, defect, duration)
-    release, regain = np.full(ball.size, np.nan), np.full(ball.size, np.nan)
-    loaded = kept = np.zeros(ball.size, np.bool_)
-    if changes is not None:
-        release, regain, loaded, kept = contact_events(changes, row, ball, entry, leave)
-    ended = np.isnan(release) | np.isfinite(regain)
-    kept = kept & (entry >= 0.0) & (leave <= duration)
+    events = no_contact_events(ball.size) if changes is None else contact_events(changes, row, ball, entry, leave)
+    ended = np.isnan(events.release) | np.isfinite(events.regain)
+    kept = events.kept & (entry >= 0.0) & (leave <= duration)
     fall, rise = np.full(ball.size, np.nan), np.full(ball.size, np.nan)
     fall[kept], rise[kept] = load_dips(scene, row, ball[kept], entry[kept], leave[kept])
     return PassTable(
@@ -99,9 +96,9 @@ def _passes_over(scene: Scene, changes: ContactChanges | None, duration: float, 
         entry_time=entry,
         deepest_time=deepest,
         exit_time=leave,
-        release_time=release,
-        regain_time=regain,
-        loaded=loaded,
+        release_time=events.release,
+        regain_time=events.regain,
+        loaded=events.loaded,
         complete=(entry >= 0.0) & (leave <= duration) & ended,
         fall_time=fall,
         rise_time=rise,

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -10,24 +12,38 @@ from physics.arrays import Array, Flags, Index
 from physics.trace import ContactChanges
 
 
+class ContactEvents(NamedTuple):
+    """What contact did in each of N ball passes.
+
+    `release` (N,), s, is the first loss of contact in the pass and `regain` (N,), s, the beginning of contact that ends
+    the last loss in it, be it later; both are NaN if the ball kept contact or did not touch at entry (or at 0, if that
+    is later), and `regain` alone if contact does not begin again. `loaded` (N,): the ball touches both races at some
+    moment of the pass. `kept` (N,): it does so at all of them, from entry (or 0) on.
+    """
+
+    release: Array
+    regain: Array
+    loaded: Flags
+    kept: Flags
+
+
+def no_contact_events(passes: int) -> ContactEvents:
+    """Those of so many `passes` of which nothing is known: no times, not loaded, not kept."""
+    unknown, no = np.full(passes, np.nan), np.zeros(passes, np.bool_)
+    return ContactEvents(unknown, unknown.copy(), no, no.copy())
+
+
 def contact_events(
     changes: ContactChanges, row: int, ball: NDArray[np.int16], entry: Array, leave: Array
-) -> tuple[Array, Array, Flags, Flags]:
-    """`release`, `regain` (N,), s, `loaded` and `kept` (N,) of passes of `ball` (N,), from 1, of the `row`.
-
-    A pass lasts from `entry` to `leave` (N,), s. `release` is the first loss of contact in it and `regain` the
-    beginning of contact that ends the last loss in it, be it later; both are NaN if the ball kept contact or did not
-    touch at entry (or at 0, if that is later), and `regain` alone if contact does not begin again. `loaded`: the ball
-    touches both races at some moment of the pass. `kept`: it does so at all of them, from entry (or 0) on.
-    """
+) -> ContactEvents:
+    """Those of the passes of `ball` (N,), from 1, of the `row`; each lasts from `entry` to `leave` (N,), s."""
     own = changes.row == row
     order = np.lexsort((changes.time[own], changes.ball[own]))
     balls, times, begins = (column[own][order] for column in (changes.ball, changes.time, changes.made))
     first = np.searchsorted(balls, np.arange(1, changes.initial.shape[1] + 2))
-    release, regain = np.full(ball.size, np.nan), np.full(ball.size, np.nan)
-    loaded, kept = np.zeros(ball.size, np.bool_), np.zeros(ball.size, np.bool_)
-    _fill_events(times, begins, first, changes.initial[row - 1], ball, entry, leave, release, regain, loaded, kept)
-    return release, regain, loaded, kept
+    events = no_contact_events(ball.size)
+    _fill_events(times, begins, first, changes.initial[row - 1], ball, entry, leave, events)
+    return events
 
 
 @njit
@@ -39,15 +55,13 @@ def _fill_events(
     ball: NDArray[np.int16],
     entry: Array,
     leave: Array,
-    release: Array,
-    regain: Array,
-    loaded: Flags,
-    kept: Flags,
+    events: ContactEvents,
 ) -> None:
-    """Fill what `contact_events` gives from the changes of each ball, which lie from `first` (B + 1,) on.
+    """Fill the `events` from the changes of each ball, which lie from `first` (B + 1,) on.
 
     Each ball's `times` (C,) rise; contact `begins` (C,) at them or is lost, and stood as in `initial` (B,) before.
     """
+    release, regain, loaded, kept = events
     for k in range(ball.size):
         touches_at_entry, made_within, ended = initial[ball[k] - 1], False, True
         for change in range(first[ball[k] - 1], first[ball[k]]):

@@ -14,11 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from labels.features.analysis import Analysis
-from labels.features.conditioning import FEWEST_BINS, over_floor
 from labels.features.families import find_family
 from labels.features.known_lines import near_mains
 from labels.features.lines import lines_in
-from labels.features.speed import SPECTRUM_FLOOR_ORDERS
+from labels.features.speed import vibration_excess
 from labels.features.turning import Spectrum
 from physics.arrays import Array
 
@@ -116,8 +115,7 @@ def _turning(analysis: Analysis) -> float:
     """Evidence (nats) of shaft harmonics or passing balls in the vibration, without mains tones and strongest line."""
     spectrum, step = analysis.record.raw, analysis.record.step
     power = np.abs(spectrum[None, : int(STILL_BAND[1] / step)]) ** 2
-    block = max(FEWEST_BINS, int(SPECTRUM_FLOOR_ORDERS * analysis.given.shaft_hz / step))
-    excess = over_floor(power, block)
+    excess = vibration_excess(power, step, analysis.given.shaft_hz)
     frequency = np.arange(excess.shape[-1]) * step
     lines = lines_in(np.where(_hum(frequency, step) | (frequency <= 2.0 * step), 1.0, excess), step)
     known = analysis.given

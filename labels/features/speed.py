@@ -53,13 +53,19 @@ class Speed:
     evidence: float
 
 
+def vibration_excess(power: Array, step: float, shaft_hz: float) -> Array:
+    """`power` (B, F) of spectra of the vibration itself, components `step` (Hz) apart, over its local floor, taken over
+    so many orders that single harmonics of a shaft at `shaft_hz` do not raise it."""
+    block = max(FEWEST_BINS, int(SPECTRUM_FLOOR_ORDERS * shaft_hz / step))
+    return over_floor(power, min(block, max(2, power.shape[-1] // 2)))
+
+
 def vibration_lines(record: Conditioned, shaft_hz: float, top_hz: float) -> tuple[Lines, Array]:
     """Lines of the raw spectrum, over the angle turned where the speed changes, over its local floor up to `top_hz`,
     and that excess (1, F)."""
     count = min(record.raw.size, int(top_hz / record.step) + 2)
     power = np.abs(record.slow(count)[None]) ** 2
-    block = max(FEWEST_BINS, int(SPECTRUM_FLOOR_ORDERS * shaft_hz / record.step))
-    excess = over_floor(power, min(block, max(2, count // 2)))
+    excess = vibration_excess(power, record.step, shaft_hz)
     return lines_in(excess, record.step), excess
 
 

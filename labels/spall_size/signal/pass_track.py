@@ -26,8 +26,8 @@ DEVIATION = 0.009
 ROUNDS = 3
 # Standard deviation of the blur of the log energy along which the first path is laid, cells.
 BLUR = 1.5
-# A record must be long enough for one pass more than this.
-FEWEST_PASSES = 4
+# Passes that a record must be long enough for.
+FEWEST_TRACKED = 5
 
 
 @dataclass(frozen=True)
@@ -48,12 +48,12 @@ class PassTrack:
 def track_passes(energy: Array, rate: float, period: float) -> PassTrack | None:
     """The passes in `energy` (T,) sampled at `rate` (Hz), their `period` (s) known to within FIRST_TOLERANCE.
 
-    None if the record is shorter than FEWEST_PASSES + 1 of them. The path is the best one by dynamic programming under
+    None if the record is shorter than FEWEST_TRACKED of them. The path is the best one by dynamic programming under
     a random walk of 0.9 % of a period a pass, its pattern learned from the record in three rounds.
     """
     step = period * rate / CELLS
     log_energy = _cells(energy, step)
-    if log_energy.size < (FEWEST_PASSES + 1) * CELLS:
+    if log_energy.size < FEWEST_TRACKED * CELLS:
         return None
     log_energy = np.log1p(log_energy / max(float(np.median(log_energy)), 1e-300))
     log_energy -= log_energy.mean()

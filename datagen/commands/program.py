@@ -148,9 +148,12 @@ def _check_json(json_file: Path | None, **others: Any) -> None:
 
 
 def _may_be_json(path: Path) -> bool:
-    """Whether a file is empty or begins as our results do."""
-    with path.open("rb") as file:
-        return file.read(64).lstrip()[:1] in (b"", b"{", b"[")
+    """Whether a file is empty or begins as our results do; also if it cannot be read, as writing it tells."""
+    try:
+        with path.open("rb") as file:
+            return file.read(64).lstrip()[:1] in (b"", b"{", b"[")
+    except OSError:
+        return True
 
 
 def _is_place(named: Any) -> bool:

@@ -101,6 +101,10 @@ def _require_scoring(scoring: Scoring) -> None:
         possible = False
     if not possible:
         raise BadInput(field="--noise-db", value=scoring.noise_db, allowed=allowed)
+    if not scoring.levels and scoring.noise_draws != Scoring().noise_draws:
+        raise BadInput(
+            "there is no noise to draw", field="--noise-draws", value=scoring.noise_draws, allowed="with --noise-db"
+        )
 
 
 def _require_use(asked: Benchmark) -> None:

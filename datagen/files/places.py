@@ -48,7 +48,7 @@ def require_folder(folder: Path) -> None:
 def require_results_folder(folder: Path) -> None:
     """Raise BadInput if results cannot be put into `folder`, or would be mixed with the files of a corpus there."""
     require_folder(folder)
-    if (folder / MANIFEST).is_file():
+    if _is_in_corpus(folder):
         problem = "this is the folder of a corpus, and results would be mixed with its files"
         raise BadInput(problem, field=OUT, value=str(folder), allowed="a folder of its own")
 
@@ -56,9 +56,15 @@ def require_results_folder(folder: Path) -> None:
 def require_table(path: Path) -> None:
     """Raise BadInput if no table can be put at `path`, or it would lie among the files of a corpus."""
     require_file(path)
-    if (path.absolute().parent / MANIFEST).is_file():
+    if _is_in_corpus(path.parent):
         problem = "this is in the folder of a corpus, and the table would be mixed with its files"
         raise BadInput(problem, field=OUT, value=str(path), allowed="a file in another folder")
+
+
+def _is_in_corpus(folder: Path) -> bool:
+    """Whether a folder is that of a corpus or of its shards."""
+    place = Path(os.path.realpath(folder))
+    return (place / MANIFEST).is_file() or (place.name == SHARDS and (place.parent / MANIFEST).is_file())
 
 
 def refuse_other_than_file(path: Path, allowed: str) -> None:

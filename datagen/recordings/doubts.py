@@ -158,7 +158,7 @@ def geometry_doubts(labels: Mapping[str, Any]) -> dict[str, str]:
     if balls > MOST_LIKELY_BALLS:
         full = f"with a bearing of more than {MOST_LIKELY_BALLS:g} balls, as if `bpfo` and `bpfi` were in Hz"
         doubts[full] = f"{balls:.4g} balls"
-    if extent_mm < SHORTEST_LIKELY_MM:
+    if 0.0 < extent_mm < SHORTEST_LIKELY_MM:
         short = f"with a defect shorter than {SHORTEST_LIKELY_MM:g} mm, as if `extent_mm` were in inches or m"
         doubts[short] = f"{extent_mm:.4g} mm"
     return doubts

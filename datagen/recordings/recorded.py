@@ -171,7 +171,8 @@ def _scale(source: Source) -> float:
         raise BadInput("the unit of the samples is not given", source.request.place, "unit", allowed=", ".join(UNITS))
     scale = source.number("scale")
     if scale == 0.0:
-        raise BadInput(file=str(source.path), field="scale", value=0.0, allowed="any number but 0")
+        told_by = str(source.path) if isinstance(source.setting("scale"), FromVariable) else source.request.place
+        raise BadInput(file=told_by, field="scale", value=0.0, allowed="any number but 0")
     return UNITS[unit] * (1.0 if scale is None else scale)
 
 

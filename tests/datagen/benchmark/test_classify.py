@@ -134,6 +134,7 @@ def test_ones_own_code_is_named_in_messages_as_it_was_given(classify):
             "always_outer does not learn",
         ),
         (("--noise-db", "nan"), '--noise-db = "nan"; allowed: numbers from -100 to 100 dB'),
+        (("--noise-draws", "3"), "--noise-draws = 3: there is no noise to draw; allowed: with --noise-db"),
         (("--noise-db=-10,-101",), "allowed: numbers from -100 to 100 dB"),
         (("--noise-db", "inf"), "allowed: numbers from -100 to 100 dB"),
         (("--noise-db", "0,101"), "allowed: numbers from -100 to 100 dB"),

@@ -101,9 +101,10 @@ def test_results_may_be_put_beside_the_files_of_a_corpus(copy):
 @pytest.mark.parametrize("command", ["size", "paper", "chart", "classify"])
 def test_results_are_not_put_among_the_files_of_a_corpus(command, refused, copy):
     before = sorted(copy.rglob("*"))
-    message = refused(FOLDERS[command], copy)
-    assert f'--out = "{copy}": this is the folder of a corpus' in message
-    assert message.endswith("allowed: a folder of its own\n")
+    for place in (copy, copy / "shards"):
+        message = refused(FOLDERS[command], place)
+        assert f'--out = "{place}": this is the folder of a corpus' in message
+        assert message.endswith("allowed: a folder of its own\n")
     assert sorted(copy.rglob("*")) == before
 
 

@@ -74,7 +74,7 @@ def test_a_setting_that_is_wrong_or_missing_is_named(
         ('speed_rpm = 5\ntach = {variable = "sig"}', "speed_rpm and tach set the same thing twice"),
         ('speed_rpm = {variable = "rpm"}', 'a.mat: speed_rpm = "rpm": the file has no such variable'),
         ('scale = {variable = "sig"}\nscall = 3', 'unknown key; did you mean "scale"?'),
-        ("scale = 0", "a.mat: scale = 0.0; allowed: any number but 0"),
+        ("scale = 0", "spec.toml: recording[1] (all): scale = 0.0; allowed: any number but 0"),
         (
             "to_s = 0.5",
             "to_s = 0.5; allowed: at least 0.016 s between from_s and to_s, both within 0.4 s, the length of a.mat",

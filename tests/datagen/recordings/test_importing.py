@@ -662,6 +662,7 @@ def test_orders_that_may_be_in_hz_come_in_with_a_warning(orders: str, message: s
 @pytest.mark.parametrize(
     ("extent_mm", "message"),
     [
+        (0, ""),
         (0.007, "1 with a defect shorter than 0.02 mm, as if `extent_mm` were in inches or m: a (0.007 mm)\n"),
         (0.021, ""),
     ],
@@ -670,8 +671,9 @@ def test_a_defect_shorter_than_anybody_measures_comes_in_with_a_warning(
     extent_mm: float, message: str, mat: Mat, tmp_path: Path
 ) -> None:
     mat("a.mat")
-    defect = f'location = "outer"\nextent_mm = {extent_mm}\n'
-    assert told_of(f'files = "*.mat"\nrate_hz = 1000\ny = "sig"\n{defect}', tmp_path) == message
+    bearing = "bearing = {balls = 9, ball_diameter_mm = 7.94, pitch_diameter_mm = 39.04}\n"
+    defect = f'location = "outer"\nextent_mm = {extent_mm}\n' if extent_mm else 'location = "none"\n'
+    assert told_of(f'files = "*.mat"\nrate_hz = 1000\ny = "sig"\n{bearing}{defect}', tmp_path) == message
 
 
 @pytest.mark.parametrize(

@@ -13,17 +13,15 @@ from datagen.formats.arrays import ONLY_NAME, Arrays, NumericVariables, ReadWhen
 
 
 class _Members(ReadWhenAsked):
-    """The members of an .npz file."""
+    """The members of an .npz file, which stays open as long as this is there: to open it lists all its members anew."""
 
     def __init__(self, path: Path) -> None:
-        self.path = path
-        with np.load(path) as file:
-            super().__init__(tuple(file.files))
+        self.path, self._file = path, np.load(path)
+        super().__init__(tuple(self._file.files))
 
     def _read(self, name: str) -> NDArray[Any]:
         try:
-            with np.load(self.path) as file:
-                value = np.asarray(file[name])
+            value = np.asarray(self._file[name])
         except Exception as problem:  # whatever the damaged bytes lead NumPy and zlib to
             if "allow_pickle" in str(problem):  # NumPy would have its own switch set, with which a file runs programs
                 raise _of_objects(f"its array {name}", self.path) from None

@@ -6,6 +6,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator
+from functools import lru_cache
 
 import numpy as np
 
@@ -42,13 +43,19 @@ def rate_doubts(source: Source, rate: float, size: int) -> dict[str, str]:
 def _told_rates(source: Source, size: int) -> Iterator[tuple[str, float]]:
     """Names of variables that tell a rate, and what they tell, without its unit."""
     for name in source.arrays:
-        letters = re.sub("[^a-z]|hz$", "", re.split(r"[.@]", name)[-1].casefold())
+        letters = _letters(name)
         if letters in RATE_NAMES:
             found = np.asarray(source.arrays[name])
             if found.size == 1 and found.dtype.kind in "iuf":
                 yield name, float(found.ravel()[0])
         elif TIME_NAMES.fullmatch(letters) or (name == FIRST_COLUMN and isinstance(source.arrays, Columns)):
             yield name, _rate_by_times(source, name, size)
+
+
+@lru_cache(maxsize=1 << 16)  # the names of a file are looked at anew for each recording in it
+def _letters(name: str) -> str:
+    """The letters of a variable's own name, small, without a unit of Hz."""
+    return re.sub("[^a-z]|hz$", "", re.split(r"[.@]", name)[-1].casefold())
 
 
 def _rate_by_times(source: Source, name: str, size: int) -> float:

@@ -101,8 +101,11 @@ class SpallClassifier(ClassifierMixin, BaseEstimator):
     def predict_proba(self, X: Array) -> Array:
         """Probabilities (N, 5) of CLASSES for rows (N, F) of the feature table; they sum to 1 in each row."""
         X = np.asarray(X, dtype=np.float64)
-        spall, inner = self.spall_.probability(_spall_columns(X)), self.race_.probability(_race_columns(X))
-        long = np.full(len(X), float(self.always_extended_)) if self.length_ is None else self.length_.probability(X)
+        with threadpool_limits(1):  # as in `fit`
+            spall, inner = self.spall_.probability(_spall_columns(X)), self.race_.probability(_race_columns(X))
+            long = (
+                np.full(len(X), float(self.always_extended_)) if self.length_ is None else self.length_.probability(X)
+            )
         parts = (1.0 - long) * (1.0 - inner), (1.0 - long) * inner, long * (1.0 - inner), long * inner
         return np.column_stack([1.0 - spall, *(spall * part for part in parts)])
 

@@ -69,7 +69,7 @@ def bearing_kinematics(
     balls: int, pitch_diameter: float, ball_diameter: float, contact_angle: float, shaft_hz: float
 ) -> Kinematics:
     """Kinematics of a bearing from its geometry (m, m, rad) and speed (Hz); ValueError if a number is impossible."""
-    if balls != int(balls):
+    if balls % 1 != 0:
         raise ValueError(f"balls = {balls}; allowed: whole numbers")
     if not 0.0 < ball_diameter < pitch_diameter:
         raise ValueError(f"ball_diameter = {ball_diameter} m; allowed: above 0 and below pitch_diameter")

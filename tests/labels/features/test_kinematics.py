@@ -75,6 +75,7 @@ def test_a_ball_as_large_as_the_pitch_circle_or_none_is_refused(ball_diameter):
         bearing_kinematics(9, 7e-3, ball_diameter, 0.0, 25.0)
 
 
-def test_a_part_of_a_ball_is_refused():
-    with pytest.raises(ValueError, match=r"balls = 9\.5; allowed: whole numbers"):
-        bearing_kinematics(9.5, 39.04e-3, 7.94e-3, 0.0, 29.95)
+@pytest.mark.parametrize("balls", [9.5, math.nan, math.inf])
+def test_a_number_of_balls_that_is_not_whole_is_refused(balls):
+    with pytest.raises(ValueError, match=rf"balls = {balls}; allowed: whole numbers"):
+        bearing_kinematics(balls, 39.04e-3, 7.94e-3, 0.0, 29.95)

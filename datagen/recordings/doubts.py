@@ -146,22 +146,27 @@ def speed_doubts(labels: Mapping[str, Any], turns: float, settings: Container[st
 
 
 def geometry_doubts(labels: Mapping[str, Any]) -> dict[str, str]:
-    """Says so, with the figure, if the bearing of the record with these `labels` is smaller than bearings are or by its
-    orders alone has more balls, or if the defect is shorter than anybody measures; empty if not, or if unknown."""
-    doubts = {}
-    pitch_mm, extent_mm = 1e3 * labels.get("pitch_diameter", math.nan), labels.get("extent_mm", math.nan)
+    """Says so, with the figure, if the bearing of the record with these `labels` is smaller than bearings are, or by
+    its orders alone has more balls; empty if not, or if nothing is known of it."""
+    pitch_mm, outer = 1e3 * labels.get("pitch_diameter", math.nan), labels.get("bpfo", math.nan)
+    balls = math.nan if "balls" in labels else outer + labels.get("bpfi", outer)
     if pitch_mm < SMALLEST_PITCH_MM:
         small = f"with a bearing of less than {SMALLEST_PITCH_MM:g} mm pitch diameter, as if in inches"
-        doubts[small] = f"{pitch_mm:.4g} mm"
-    outer = labels.get("bpfo", math.nan)
-    balls = math.nan if "balls" in labels else outer + labels.get("bpfi", outer)
+        return {small: f"{pitch_mm:.4g} mm"}
     if balls > MOST_LIKELY_BALLS:
         full = f"with a bearing of more than {MOST_LIKELY_BALLS:g} balls, as if `bpfo` and `bpfi` were in Hz"
-        doubts[full] = f"{balls:.4g} balls"
-    if 0.0 < extent_mm < SHORTEST_LIKELY_MM:
-        short = f"with a defect shorter than {SHORTEST_LIKELY_MM:g} mm, as if `extent_mm` were in inches or m"
-        doubts[short] = f"{extent_mm:.4g} mm"
-    return doubts
+        return {full: f"{balls:.4g} balls"}
+    return {}
+
+
+def defect_doubts(labels: Mapping[str, Any]) -> dict[str, str]:
+    """Says so, with the figure, if the defect of the record with these `labels` is shorter than anybody measures; empty
+    if not, if there is none, or if its size is unknown."""
+    extent_mm = labels.get("extent_mm", math.nan)
+    if not 0.0 < extent_mm < SHORTEST_LIKELY_MM:
+        return {}
+    short = f"with a defect shorter than {SHORTEST_LIKELY_MM:g} mm, as if `extent_mm` were in inches or m"
+    return {short: f"{extent_mm:.4g} mm"}
 
 
 def _stated(labels: Mapping[str, Any]) -> str:

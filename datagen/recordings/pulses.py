@@ -77,7 +77,7 @@ def _odd(times: Array) -> NDArray[np.int64]:
 
 def _come_again(numbers: NDArray[np.int64], pulses_per_rev: float) -> bool:
     """Whether the pulses of these `numbers` (N,) are the same ones in nearly every turn, and so are of the wheel."""
-    turn = round(pulses_per_rev)
+    turn = max(1, round(pulses_per_rev))
     followed = numbers[numbers + turn <= numbers.max(initial=0)]
     return bool(followed.size and np.mean(np.isin(followed + turn, numbers)) >= REGULAR)
 

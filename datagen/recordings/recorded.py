@@ -18,7 +18,14 @@ from datagen.formats.reading import file_format
 from datagen.formats.wav_file import RATE_NAME
 from datagen.recipes.signal_settings import FEWEST_STORED_SAMPLES
 from datagen.recordings.description import contact_numbers, recording_labels
-from datagen.recordings.doubts import geometry_doubts, level_doubts, scale_doubts, speed_doubts, standing_doubt
+from datagen.recordings.doubts import (
+    defect_doubts,
+    geometry_doubts,
+    level_doubts,
+    scale_doubts,
+    speed_doubts,
+    standing_doubt,
+)
 from datagen.recordings.listing import Request
 from datagen.recordings.opened_files import open_source, source_hash
 from datagen.recordings.settings import UNITS
@@ -98,7 +105,8 @@ def read_recording(request: Request, known_band: tuple[float, float] | None = No
     along = counts[slice(*part), axes.index("y")] if "y" in axes else None
     band = _band(source, rate, shortest, along) if known_band is None else known_band
     labels = recording_labels(source) | {"rate_hz": rate, "envelope_band": band}
-    of_file = scale_doubts(source) | rate_doubts(source, rate, counts.shape[0]) | geometry_doubts(labels)
+    stated = geometry_doubts(labels) | defect_doubts(labels)
+    of_file = scale_doubts(source) | rate_doubts(source, rate, counts.shape[0]) | stated
     speeds = shaft_speeds(source, rate, counts.shape[0], part, pieces)
     for piece, ((start, stop), speed) in enumerate(zip(pieces, speeds, strict=True)):
         samples = counts[start:stop]

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -117,7 +117,7 @@ def edges_of(scene: Scene) -> Edges:
 
 def _within(edges: Edges, duration: float) -> Edges:
     within = (edges.time >= 0.0) & (edges.time < duration)
-    return Edges(*(column[within] for column in list[Any](edges)))
+    return Edges._make(column[within] for column in edges)
 
 
 def _edges_around(scene: Scene) -> Edges:

@@ -2,6 +2,7 @@
 
 import os
 import shutil
+import subprocess
 import sys
 import tempfile
 
@@ -27,12 +28,17 @@ def pytest_configure(config):
 
 
 def pytest_sessionstart(session):
-    """Compile what records need once, before processes begin that would each compile it."""
+    """Compile what records need once, before processes begin that would each compile it; and the tests beside it."""
     if hasattr(session.config, "workerinput") or session.config.option.collectonly:
         return
-    from physics.warming import warm_up
+    from physics.warming import is_warm, warm_up
 
-    warm_up()
+    if is_warm():
+        warm_up()
+        return
+    collecting = [sys.executable, "-m", "pytest", "--collect-only", "-q"]
+    with subprocess.Popen(collecting, cwd=session.config.rootpath, stdout=subprocess.DEVNULL):
+        warm_up()
 
 
 def pytest_collection_modifyitems(items):

@@ -335,8 +335,8 @@ def test_an_output_that_cannot_be_written_is_told_in_a_line() -> None:
     ("arguments", "stream"),
     [
         ("--version", "stdout"),
-        ("catalog --help", "stdout"),
-        ("catalog", "stdout"),
+        pytest.param("catalog --help", "stdout", marks=pytest.mark.slow),
+        pytest.param("catalog", "stdout", marks=pytest.mark.slow),
         ("check CORPUS --remake 0", "stdout"),
         ("info nowhere", "stderr"),
         ("frobnicate", "stderr"),

@@ -52,7 +52,13 @@ def test_an_estimator_of_ones_own_is_fitted_and_scored(classify, tmp_path):
     assert json.loads((tmp_path / "report" / "report.json").read_text())["training_records"] == 14
 
 
-@pytest.mark.parametrize(("inputs", "columns"), [("features", len(FEATURE_NAMES)), ("windows", WINDOW_SAMPLES)])
+@pytest.mark.parametrize(
+    ("inputs", "columns"),
+    [
+        pytest.param("features", len(FEATURE_NAMES), marks=pytest.mark.slow),
+        ("windows", WINDOW_SAMPLES),
+    ],
+)
 def test_the_learning_curve_is_that_of_ones_own_estimator(classify, tmp_path, inputs, columns):
     # It names what it saw most of, remembers what it was fitted to, and must be given fresh copies.
     (tmp_path / "own_curves.py").write_text(
@@ -81,7 +87,7 @@ def test_the_learning_curve_is_that_of_ones_own_estimator(classify, tmp_path, in
     assert fitted[0][2] < fitted[1][2]
 
 
-@pytest.mark.parametrize("inputs", ["features", "windows"])
+@pytest.mark.parametrize("inputs", ["features", pytest.param("windows", marks=pytest.mark.slow)])
 def test_how_far_it_has_got_is_told_on_standard_error(classify, other_corpus, inputs, monkeypatch):
     monkeypatch.setattr("datagen.commands.progress_display.SECONDS_BETWEEN_LINES", 0.0)
     done, _ = classify("--estimator", "own_estimators:Guesser", "--input", inputs)
@@ -101,7 +107,7 @@ def test_that_no_noise_is_added_to_simulated_records_is_said(classify):
     assert done.output.count("no noise is added to") == 1
 
 
-@pytest.mark.parametrize("inputs", ["features", "windows"])
+@pytest.mark.parametrize("inputs", [pytest.param("features", marks=pytest.mark.slow), "windows"])
 def test_a_function_that_names_classes_is_scored_too(classify, inputs):
     done, results = classify("--estimator", "own_estimators:always_outer", "--input", inputs)
     assert done.exit_code == 0

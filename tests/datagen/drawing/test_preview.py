@@ -57,7 +57,9 @@ def png_size(data):
     return struct.unpack(">II", data[16:24])
 
 
-@pytest.mark.parametrize("clean", [True, False], ids=["with clean signal", "without"])
+@pytest.mark.parametrize(
+    "clean", [True, pytest.param(False, marks=pytest.mark.slow)], ids=["with clean signal", "without"]
+)
 @pytest.mark.parametrize("name", KINDS)
 def test_a_record_of_every_kind_becomes_a_png_of_the_stated_size(name, clean, portrait):
     assert png_size(sheet_png(portrait(name, clean))) == (WIDTH * DPI, HEIGHT * DPI)

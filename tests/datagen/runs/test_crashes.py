@@ -181,7 +181,8 @@ def test_what_is_interrupted_between_a_shard_and_its_sidecar_leaves_no_shard(
     assert list((tmp_path / "out" / "shards").iterdir()) == []
 
 
-@pytest.mark.parametrize("stop", [pytest.param(sigterm, marks=pytest.mark.slow), sigterms_to_all])
+@pytest.mark.slow
+@pytest.mark.parametrize("stop", [sigterm, sigterms_to_all])
 def test_sigterm_ends_as_ctrl_c_does_with_143(stop: Callable[[Process], None], longer: Path, tmp_path: Path) -> None:
     ends_well(stop, 143, longer, tmp_path / "out")
 

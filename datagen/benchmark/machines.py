@@ -27,8 +27,8 @@ class LearnedMachines:
 def machines(corpus: Corpus) -> NDArray[np.str_]:
     """The machine (R,) of each record: the recipe's seed and the number of the virtual bearing, "" if it was recorded.
 
-    Seed and number alone decide what is drawn, so copies of a corpus, and corpora made again under another name, have
-    the same machines.
+    So copies of a corpus, and corpora made again under another name or with small changes, have the same machines. For
+    safety's sake all recipes of one seed count as having the same, also those that draw other machines from it.
     """
     names = corpus.labels["bearing_id"].astype(str)
     if corpus.manifest.imported:

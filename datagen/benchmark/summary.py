@@ -159,11 +159,12 @@ def _equal_error(spall: NDArray[np.bool_], probability: Array) -> float:
 
 
 def _condition(tested: Tested, said: Verdicts) -> ConditionScores | None:
-    """How well line and extended spalls are distinguished, of those whose size is known; None where none is."""
+    """How well line and extended spalls are distinguished, of those whose size is known; None unless there are two
+    of the conditions."""
     known = tested.classes != UNKNOWN
-    if np.unique(tested.classes[known]).size < 2:
-        return None
     conditions = np.array([name.split()[0] for name in tested.classes])[known]
+    if np.unique(conditions).size < 2:
+        return None
     called, owner = said.condition[known], tested.owner[known]
     return ConditionScores(
         bootstrap(balanced_accuracy, conditions, called, strata=conditions, groups=owner),

@@ -42,10 +42,10 @@ RIVAL = "numbalsoda"
 
 @dataclass(frozen=True)
 class Run:
-    """One contestant at one setting: `seconds` of processor for `duration` (s) of signal, median of the rounds.
+    """One contestant at one setting: `seconds` of processor for `duration` (s) of signal.
 
-    `real_time` is duration over seconds; `failure` the sentence with which it gave up, or empty; `substeps` the steps a
-    sample of a method with fixed steps.
+    What takes less than 0.5 s is repeated, and `seconds` is the median. `real_time` is duration over seconds; `failure`
+    the sentence with which it gave up, or empty; `substeps` the steps a sample of a method with fixed steps.
     """
 
     group: str

@@ -206,6 +206,6 @@ def is_refused(step: float, longest: float) -> bool:
 
 
 def longest_step(scene: Scene, method: str) -> float:
-    """The longest stable step of a method on a scene at rest, in samples; NaN if the method states no limit."""
+    """The longest stable step of a method on a scene at rest, in samples; infinite if the method has no limit."""
     rest = equilibrium(scene, np.zeros(1))
     return longest_stable_step(scene.rig, METHODS[method], rest.stiffness[0], rest.damping[0]) * RATE

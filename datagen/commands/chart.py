@@ -27,7 +27,9 @@ def chart(
     quick: Annotated[bool, typer.Option("--quick", help="Few settings, 0.2 s of signal, no slow reference.")] = False,
     rounds: Annotated[
         int,
-        typer.Option(metavar="N", min=1, help="How often each run is repeated, at least; the median counts."),
+        typer.Option(
+            metavar="N", min=1, help="How often runs below half a second are repeated, at least; the median counts."
+        ),
     ] = 5,
     stability: Annotated[
         bool, typer.Option("--stability", help="Map where the methods fail, instead of a scene.")

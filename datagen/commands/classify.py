@@ -102,8 +102,8 @@ def classify(
 ) -> None:
     """Learn health and fault location from a simulated corpus; score the models on corpora, simulated or imported.
 
-    A corpus that shares virtual bearings with the one to learn from (the same folder, or another corpus of the same
-    recipe) is divided by its label split, so that no bearing is both learned from and scored. Every run on imported
+    A corpus that shares virtual bearings with the one to learn from (the same folder, or a corpus of a recipe with the
+    same seed) is divided by its label split, so that no bearing is both learned from and scored. Every run on imported
     recordings is logged in their folder, in scored_runs.jsonl. A file written by --save is a pickle, which can run any
     program when it is loaded: use only your own.
     """

@@ -32,6 +32,7 @@ SIMULATED_ATTRIBUTES = {
     "references": "Petersen, Howard, Sawalhi, Moazen Ahmadi, Singh (2014)",
     "processing_level": SIMULATED,
 }
+NUMBERS = {label.name for label in LABELS if label.dtype == "float64"}
 ROUNDED = "Rounded from float64 to float32: relative error of each value at most 6e-8."
 # Stored over raw size with zlib, as measured on both test rigs; used to estimate the disk space that a corpus needs.
 ZLIB_SHARE = {
@@ -111,7 +112,8 @@ def from_columns(columns: dict[str, Any], attributes: dict[str, str]) -> xarray.
     """The dataset of values by name of variable or label, with the dimensions, types and units of the tables."""
     import xarray
 
-    data = {name: _array(VARIABLE[name], values) for name, values in columns.items()}
+    imported = attributes.get("processing_level") == IMPORTED
+    data = {name: _array(VARIABLE[name], values, imported) for name, values in columns.items()}
     coordinates = {name: data.pop(name) for name in list(data) if VARIABLE[name].dims == (name,)}
     return xarray.Dataset(data, coordinates, attributes)
 
@@ -121,15 +123,18 @@ def is_imported(dataset: xarray.Dataset) -> bool:
     return dataset.attrs.get("processing_level") == IMPORTED
 
 
-def _array(variable: Variable, values: Any) -> tuple[tuple[str, ...], np.ndarray, dict[str, str]]:
+def _array(variable: Variable, values: Any, imported: bool) -> tuple[tuple[str, ...], np.ndarray, dict[str, str]]:
     dtype: Any = np.str_ if variable.dtype == "str" else variable.dtype
     attributes = {"long_name": variable.long_name, "comment": variable.sentence}
     if variable.unit:
         attributes["units"] = variable.unit
     if variable.dtype == "float32":
         attributes["comment"] += f" {ROUNDED}"
-    if variable.missing:
-        attributes["missing"] = f"NaN where {variable.missing}"
+    reasons = [variable.missing] * bool(variable.missing)
+    if imported and variable.name in NUMBERS:
+        reasons.append("it is unknown")
+    if reasons:
+        attributes["missing"] = f"NaN where {', or '.join(reasons)}"
     return variable.dims, np.asarray(values, dtype=dtype), attributes
 
 

@@ -174,7 +174,9 @@ def _recipe(found: dict[str, Any], origin: str) -> dict[str, Any]:
     raises for any other."""
     if origin not in (SIMULATED, IMPORTED):
         raise ValueError("another origin")
-    return dict(found) | ({"spec": dict(found["spec"])} if origin == IMPORTED else {})
+    if origin == IMPORTED:
+        return dict(found) | {"spec": dict(found["spec"])}
+    return dict(found) | {"seed": whole(found["seed"])}
 
 
 def _spans(found: list[Any], records: int) -> tuple[Span, ...]:

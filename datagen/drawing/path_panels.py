@@ -54,11 +54,11 @@ def draw_path(axes: Axes, portrait: Portrait) -> None:
 
 
 def _draw_good_races(axes: Axes, scene: Scene, arc: Array) -> None:
-    waves = scene.imperfections.waviness
-    for race, colour in (("outer", BLUE), ("inner", VERMILLION)):
-        wavy = [wave.amplitude * np.cos(wave.order * arc + wave.phase) for wave in waves if wave.race == race]
+    waves, place = scene.imperfections.waviness, arc + LOAD_DIRECTION
+    for race, when, colour in (("outer", "", BLUE), ("inner", " at t = 0", VERMILLION)):
+        wavy = [wave.amplitude * np.cos(wave.order * place + wave.phase) for wave in waves if wave.race == race]
         drop = np.sum([np.zeros(arc.size), *wavy], axis=0) * 1e6
-        axes.plot(np.degrees(arc), drop, color=colour, linewidth=1.2, label=f"{race} race")
+        axes.plot(np.degrees(arc), drop, color=colour, linewidth=1.2, label=f"{race} race{when}")
     axes.set_ylabel("drop (µm)")
     if waves:
         axes.invert_yaxis()

@@ -13,12 +13,14 @@ from physics.orders import ball_spin_order
 
 UNKNOWN_SPEED = "speed unknown"
 UNKNOWN_GEOMETRY = "geometry unknown"
+NO_BEARING = "no bearing has this geometry"
+GEOMETRY = ("balls", "pitch_diameter", "ball_diameter")
 NO_ROTATION = "speed not above 0"
 
 
 def known_kinematics(labels: Mapping[str, Any]) -> Kinematics | None:
-    """Kinematics of the record with these labels, from its geometry or its orders; None if the labels state neither, or
-    no speed."""
+    """Kinematics of the record with these labels, from its geometry or its orders; None if the labels state neither, no
+    speed, or what no bearing has."""
     speed = number_in(labels, "speed_rpm") / RPM_PER_HZ
     if not speed > 0.0:
         return None
@@ -29,7 +31,9 @@ def known_kinematics(labels: Mapping[str, Any]) -> Kinematics | None:
 def what_is_missing(labels: Mapping[str, Any]) -> str:
     """Why no kinematics are known of a record with these labels: its speed or its geometry."""
     speed = float(labels["speed_rpm"])
-    return UNKNOWN_SPEED if math.isnan(speed) else NO_ROTATION if speed <= 0.0 else UNKNOWN_GEOMETRY
+    if not speed > 0.0:
+        return UNKNOWN_SPEED if math.isnan(speed) else NO_ROTATION
+    return NO_BEARING if _has_geometry(labels) else UNKNOWN_GEOMETRY
 
 
 def is_nominal(labels: Mapping[str, Any]) -> bool:
@@ -38,11 +42,18 @@ def is_nominal(labels: Mapping[str, Any]) -> bool:
 
 
 def _kinematics_at(labels: Mapping[str, Any], speed: float) -> Kinematics | None:
-    balls, pitch, ball = (number_in(labels, name) for name in ("balls", "pitch_diameter", "ball_diameter"))
+    balls, pitch, ball = (number_in(labels, name) for name in GEOMETRY)
+    if not _has_geometry(labels):
+        return _from_orders(labels, balls, speed)
     angle = number_in(labels, "contact_angle")
-    if all(math.isfinite(value) for value in (balls, pitch, ball)):
+    try:
         return bearing_kinematics(int(balls), pitch, ball, angle if math.isfinite(angle) else 0.0, speed)
-    return _from_orders(labels, balls, speed)
+    except ValueError:
+        return None
+
+
+def _has_geometry(labels: Mapping[str, Any]) -> bool:
+    return all(math.isfinite(number_in(labels, name)) for name in GEOMETRY)
 
 
 def _from_orders(labels: Mapping[str, Any], balls: float, speed: float) -> Kinematics | None:

@@ -119,14 +119,13 @@ def answer(found: list[Smearing]) -> str:
     """What came out, in words."""
     first = {(smearing.rig, slip): faded(smearing.drop(slip)) for smearing in found for slip in SLIPS[1:]}
     lines = "; ".join(
-        f"{rig} rig: " + ", ".join(f"{slip:.1%} from harmonic {_shown(first[rig, slip])}" for slip in SLIPS[1:])
-        for rig in RIGS
+        f"{rig} rig: " + ", ".join(f"{slip:.1%} {_shown(first[rig, slip])}" for slip in SLIPS[1:]) for rig in RIGS
     )
     return f"Lines that slip takes down by 10 dB or more: {lines}."
 
 
 def _shown(harmonic: float) -> str:
-    return f"{harmonic:.0f}" if math.isfinite(harmonic) else f"beyond {HARMONICS}"
+    return f"from harmonic {harmonic:.0f} on" if math.isfinite(harmonic) else f"none of {HARMONICS}"
 
 
 def faded(drop: Array) -> float:

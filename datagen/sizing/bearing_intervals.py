@@ -13,6 +13,7 @@ from labels.interval import Interval
 from physics.arrays import Array
 
 RESAMPLES = 2000
+TAIL = 0.05
 
 
 def bearing_numbers(records: list[ScoredRecord]) -> NDArray[np.int64]:
@@ -28,7 +29,9 @@ def interval_over_bearings(
     """Ends of the 90 % interval of the mean of `values` (N,), by drawing bearings anew, each with all its records.
 
     `bearing` (N,) is the number of the bearing of each value. With `weights` (N,) it is the interval of the sum of the
-    values over the sum of the weights. NaN for fewer than two bearings, and if all weights are 0.
+    values over the sum of the weights. Where that is 0, or 1, for every bearing, as a share may be, the other end is
+    that of the exact binomial interval of as many bearings [Clopper & Pearson 1934]. NaN for fewer than two bearings,
+    and if all weights are 0.
     """
     _, group = np.unique(bearing, return_inverse=True)
     total, count = np.bincount(group, values), np.bincount(group, weights)
@@ -38,7 +41,10 @@ def interval_over_bearings(
     above, below = total[drawn].sum(axis=1), count[drawn].sum(axis=1)
     if not below.any():
         return math.nan, math.nan
-    low, high = np.quantile(above[below > 0.0] / below[below > 0.0], [0.05, 0.95])
+    low, high = np.quantile(above[below > 0.0] / below[below > 0.0], [TAIL, 1.0 - TAIL])
+    if low == high and low in (0.0, 1.0):
+        unseen = 1.0 - TAIL ** (1.0 / np.count_nonzero(count))
+        return max(float(low) - unseen, 0.0), min(float(high) + unseen, 1.0)
     return float(low), float(high)
 
 

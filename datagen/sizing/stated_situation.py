@@ -26,6 +26,7 @@ NEEDED = {
     "speed_rpm": "shaft speed",
     "rate_hz": "sampling rate",
 }
+PASS_ORDERS = ("bpfo", "bpfi")
 
 
 def reason_against(labels: Mapping[str, Any]) -> str:
@@ -35,6 +36,9 @@ def reason_against(labels: Mapping[str, Any]) -> str:
         return f"not known: {', '.join(unknown)}"
     if float(labels["speed_rpm"]) <= 0.0:
         return f"the machine stood still: speed_rpm = {float(labels['speed_rpm']):g}"
+    impossible = [f"{name} = {number_in(labels, name):g}" for name in PASS_ORDERS if number_in(labels, name) <= 0.0]
+    if impossible:
+        return f"no such bearing: {impossible[0]}, allowed: above 0"
     try:
         situation_of(labels)
     except InvalidParameter as problem:

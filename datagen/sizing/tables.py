@@ -28,7 +28,12 @@ def summary_table(summary: SizeSummary) -> Table:
     for name, events in summary.events.items():
         if events.true or events.found:
             interval = _reach(events.f1) if events.true else ""
-            table.add_row(f"events {name.replace('_', ' ')}: F1", f"{events.f1.value:.3f}", interval, str(events.true))
+            table.add_row(
+                f"events {name.replace('_', ' ')}: F1",
+                f"{events.f1.value:.3f}",
+                interval,
+                counted(events.true, "event"),
+            )
     return table
 
 

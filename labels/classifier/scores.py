@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -74,19 +75,28 @@ def bootstrap(
     """`score` of the columns (N,) of records, with its 95 % interval from a bootstrap over records.
 
     Records are drawn anew within each stratum of `strata` (N,). Rows of one group of `groups` (N,) are drawn together
-    and belong to the stratum of the first of them. If every draw gives the same score, the interval is what the number
-    of groups allows within the `limits` of the score. Its ends are NaN without records, and if no draw gives a score.
+    and belong to the stratum of the first of them. A stratum whose draws all give the same score seems certain, though
+    it may have one record: it adds what its number of groups allows within the `limits` of the score, as if it were
+    independent of the draws [MOVER: Zou & Donner 2008, Stat. Med. 27]. The ends are NaN without records, and if no draw
+    gives a score.
     """
     columns = tuple(np.asarray(column) for column in columns)
     if columns[0].size == 0:
         return Interval(score(*columns), float("nan"), float("nan"))
     members = _units(columns[0].size, strata, groups)
     drawn = _drawn(score, columns, members, draws)
-    value = score(*columns)
-    if np.isfinite(drawn).any() and np.ptp(drawn[np.isfinite(drawn)]) < SAME:
-        slack = unseen_share([len(stratum) for stratum in members]) * _reach(score, columns, members, limits)
-        return Interval(value, max(value - slack, limits[0]), min(value + slack, limits[1]))
-    return _interval(value, drawn)
+    found = _interval(score(*columns), drawn)
+    if not np.isfinite(drawn).any():
+        return found
+    same = np.ptp(drawn[np.isfinite(drawn)]) < SAME
+    alike = [stratum for stratum in members if same or _is_certain(score, columns, stratum)]
+    if not alike:
+        return found
+    share = unseen_share([len(stratum) for stratum in alike]) * len(alike) / len(members)
+    slack = share * _reach(score, columns, alike, limits)
+    below = math.hypot(max(found.value - found.low, 0.0), slack)
+    above = math.hypot(max(found.high - found.value, 0.0), slack)
+    return Interval(found.value, max(found.value - below, limits[0]), min(found.value + above, limits[1]))
 
 
 def paired_difference(
@@ -158,6 +168,13 @@ def exact_interval(count: float, total: int) -> Interval:
     low = betaincinv(count, total - count + 1.0, tail) if count > 0.0 else 0.0
     high = betaincinv(count + 1.0, total - count, 1.0 - tail) if count < total else 1.0
     return Interval(count / total, float(low), float(high))
+
+
+def _is_certain(score: Score, columns: tuple[Names, ...], stratum: Stratum) -> bool:
+    """Whether every unit of a stratum has one and the same score of its own, so that its draws cannot differ."""
+    unlike = {tuple(tuple(column[unit].tolist()) for column in columns): unit for unit in stratum}
+    scores = np.array([score(*(column[unit] for column in columns)) for unit in unlike.values()])
+    return bool(np.isfinite(scores).all() and np.ptp(scores) < SAME)
 
 
 def _reach(score: Score, columns: tuple[Names, ...], members: list[Stratum], limits: tuple[float, float]) -> float:

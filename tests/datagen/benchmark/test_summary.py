@@ -42,8 +42,8 @@ def test_the_race_is_scored_of_every_fault_whether_it_raised_the_alarm_or_not():
 
 
 @pytest.fixture(scope="module")
-def counted_by_hand():
-    """Scores of a rule and a model on four faults of the outer race, two of the inner one, three healthy records, of
+def judged_by_hand():
+    """What a rule and a model say of four faults of the outer race, two of the inner one, three healthy records, of
     which one is rejected, and one record of which nobody knows what it is."""
     model = Verdicts(
         name="model",
@@ -71,14 +71,19 @@ def counted_by_hand():
     labels = pandas.DataFrame({"record": range(10), "bearing_id": [*"aaaabbccc", "unknown"]}).assign(
         snr_db=np.nan, speed_rpm=100.0, extent_mm=[1.0, 1.0, 1.0, 3.0, 3.0, 3.0, *[np.nan] * 4], extent_spacing=0.5
     )
-    tested = Judged(
+    return Judged(
         chosen=ChosenRecords(Path("corpus"), labels, imported=False),
         truth=truth,
         classes=np.array([*classes, "healthy", "healthy", "healthy", "unknown"]),
         facts=(RecordFacts(),) * 10,
         verdicts=(rule, model),
     )
-    return summarise(tested)
+
+
+@pytest.fixture(scope="module")
+def counted_by_hand(judged_by_hand):
+    """Its scores."""
+    return summarise(judged_by_hand)
 
 
 def test_faults_and_locations_are_counted_by_what_is_said_of_each(counted_by_hand):
@@ -112,6 +117,12 @@ def test_conditions_are_counted_beside_locations(counted_by_hand):
     # Of line spalls two of four are called so, of extended ones one of two, of healthy records one of three.
     assert condition.condition_balanced_accuracy.value == pytest.approx((2 / 4 + 1 / 2 + 1 / 3) / 3)
     assert condition.condition_confusion.counts == [[1, 1, 0, 1], [1, 2, 1, 0], [0, 1, 1, 0]]
+
+
+def test_conditions_are_not_told_apart_where_one_alone_is_known(judged_by_hand):
+    known = np.where(judged_by_hand.truth == "outer", "line outer", "line inner")
+    lines = replace(judged_by_hand, classes=np.where(judged_by_hand.truth == "none", "unknown", known))
+    assert summarise(lines).models["model"].condition is None
 
 
 def test_accuracy_is_told_against_what_differs_between_records(counted_by_hand):

@@ -75,6 +75,14 @@ def test_numbers_and_texts_of_a_manifest_are_such(key: str, strange: object, cop
         assert f"{manifest_path(copy)}: not a manifest of a corpus" in told_by(command, copy)
 
 
+def test_a_recipe_has_a_seed(copy: Path) -> None:
+    content = json.loads(manifest_path(copy).read_text())
+    del content["recipe"]["seed"]
+    manifest_path(copy).write_text(json.dumps(content))
+    for command in ("info", "check", "size"):
+        assert f'{manifest_path(copy)}: not a manifest of a corpus: it lacks "seed"' in told_by(command, copy)
+
+
 def test_a_manifest_of_recordings_has_their_spec(copy: Path) -> None:
     content = json.loads(manifest_path(copy).read_text())
     manifest_path(copy).write_text(json.dumps(content | {"origin": "imported"}))

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from datagen.judging.known import known_kinematics
+from datagen.judging.known import known_kinematics, what_is_missing
 
 GEOMETRY = {"balls": 9, "pitch_diameter": 39.04e-3, "ball_diameter": 7.94e-3, "contact_angle": 0.0}
 UNKNOWN = dict.fromkeys(GEOMETRY, math.nan)
@@ -40,6 +40,17 @@ def test_an_order_alone_or_one_of_no_bearing_tells_nothing(orders):
 @pytest.mark.parametrize("labels", [GEOMETRY, GEOMETRY | {"speed_rpm": math.nan}, UNKNOWN | {"speed_rpm": 1800.0}])
 def test_without_speed_or_geometry_nothing_is_known(labels):
     assert known_kinematics(labels) is None
+
+
+@pytest.mark.parametrize(
+    "change",
+    [{"balls": 2.0}, {"balls": 0.0}, {"pitch_diameter": 0.0}, {"ball_diameter": 1.0}, {"contact_angle": 9.0}],
+)
+def test_a_geometry_that_no_bearing_has_tells_nothing_and_is_called_so(change):
+    labels = GEOMETRY | {"speed_rpm": 1800.0} | change
+    assert known_kinematics(labels) is None
+    assert what_is_missing(labels) == "no bearing has this geometry"
+    assert what_is_missing(UNKNOWN | {"speed_rpm": 1800.0}) == "geometry unknown"
 
 
 @pytest.mark.parametrize("orders", [(0.8, 1.2), (5.415, 3.585), (4.5, 4.5), (-1.0, 10.0)])

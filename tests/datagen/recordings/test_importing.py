@@ -182,6 +182,11 @@ def test_a_shard_of_recordings_may_leave_labels_open_and_nothing_else(bring: Bri
     assert not {"license", "references"} & set(dataset.attrs)  # of which nothing is said
     assert "spalls" not in dataset
     assert np.isnan(dataset["speed_rpm"].values).all()
+    assert dataset["speed_rpm"].attrs["missing"] == "NaN where it is unknown"
+    assert dataset["slip_deviation"].attrs["missing"] == "NaN where it is unknown"
+    noise = "the record has no background, or its sensor no signal"
+    assert dataset["snr_db"].attrs["missing"] == f"NaN where {noise}, or it is unknown"
+    assert "missing" not in dataset["acceleration"].attrs
     assert list(violations(dataset)) == []
     for name in ("speed_rpm", "location", "acceleration", "provenance"):
         assert f"{name} is missing" in list(violations(dataset.drop_vars(name)))

@@ -65,3 +65,9 @@ def test_each_number_that_is_needed_is_named_where_it_is_missing(name: str, word
 @pytest.mark.parametrize("speed", [0.0, -600.0])
 def test_a_shaft_that_does_not_turn_is_no_reason_to_guess(speed: float) -> None:
     assert reason_against(LABELS | {"speed_rpm": speed}) == f"the machine stood still: speed_rpm = {speed:g}"
+
+
+@pytest.mark.parametrize("name", ["bpfo", "bpfi"])
+def test_a_ball_pass_order_that_no_bearing_has_is_named(name: str) -> None:
+    assert reason_against(LABELS | {name: 0.0}) == f"no such bearing: {name} = 0, allowed: above 0"
+    assert reason_against(LABELS | {name: math.nan}) == ""

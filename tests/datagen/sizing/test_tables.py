@@ -52,6 +52,8 @@ def test_figures_say_whether_they_are_met_and_those_without_records_are_left_out
     assert (met["lag error, clean"], met["arc error, clean"]) == ("NO", "yes")
     assert "lag error, 10 dB" not in met
     value = dict(zip(found["figure"], found["value"], strict=True))
+    number = dict(zip(found["figure"], found["records"], strict=True))
+    assert (number["lag error, clean"], number["events within 100 us: F1"]) == ("20", "200 events")
     assert value["events within 100 us: F1"] == "0.615"  # 2 · 8 of 16 + 10
     assert value["events within 0.5 degrees: F1"] == "0.308"
 

@@ -72,6 +72,35 @@ def test_a_class_all_right_beside_one_all_wrong_leaves_room_to_both_sides():
     assert found.low == pytest.approx(1.0 - found.high)
 
 
+def test_a_class_of_which_all_few_records_are_right_adds_the_doubt_that_their_number_leaves():
+    truth = np.array(["a"] * 60 + ["b"] * 3)
+    found = bootstrap(balanced_accuracy, truth, np.array(["a"] * 40 + ["b"] * 23), strata=truth)
+    many = binomtest(40, 60).proportion_ci(method="wilson")  # near what a bootstrap of 60 gives
+    few = 1.0 - 0.025 ** (1.0 / 3.0)
+    assert found.value == pytest.approx((40 / 60 + 1.0) / 2.0)
+    # Independent doubts add up by their squares; each class has half the weight.
+    assert found.value - found.low == pytest.approx(0.5 * math.hypot(40 / 60 - many.low, few), rel=0.03)
+    assert found.high == 1.0
+
+
+def test_a_single_record_of_a_class_leaves_as_much_doubt_whatever_is_said_of_the_others():
+    truth = np.array(["a"] * 20 + ["b"])
+    lows = []
+    for wrong in range(4):
+        said = np.array(["b"] * wrong + ["a"] * (20 - wrong) + ["b"])
+        lows.append(bootstrap(balanced_accuracy, truth, said, strata=truth).low)
+        assert lows[-1] < 0.52  # without that record half of the score is gone
+    assert lows == sorted(lows, reverse=True)
+
+
+def test_a_class_with_records_of_unlike_scores_adds_no_more_than_its_draws():
+    truth = np.array(["a"] * 30 + ["b"] * 30)
+    said = np.array(["a"] * 20 + ["b"] * 10 + ["b"] * 15 + ["c"] * 15)
+    found = bootstrap(balanced_accuracy, truth, said, strata=truth)
+    spread = 0.5 * math.sqrt(20 / 30 * 10 / 30 / 30 + 0.25 / 30)  # standard deviation of half the sum of two shares
+    assert found.high - found.low == pytest.approx(2 * 1.96 * spread, rel=0.1)
+
+
 def test_a_paired_difference_of_equals_is_zero_as_far_as_their_number_says():
     truth = np.array(["a", "b"] * 20)
     said = np.array(["a", "a"] * 20)

@@ -15,6 +15,8 @@ from physics.arrays import Array
 LONGEST_WINDOW = 10.5
 SHORTEST_COPY = 0.3
 NOISY_COPIES = 2
+# The last of them, of which a stretch alone is read.
+STRETCHED_COPY = NOISY_COPIES
 LEAST_NOISE_DB = -100.0
 
 
@@ -62,7 +64,7 @@ class Reading:
 
         Its length is log-uniform from 0.3 s to the whole.
         """
-        if copy < NOISY_COPIES:
+        if copy != STRETCHED_COPY:
             return slice(None)
         shortest = min(SHORTEST_COPY * rate, samples)
         size = int(np.exp(stream.uniform(np.log(shortest), np.log(samples))))

@@ -73,7 +73,7 @@ class Model:
     given: str = ""
 
     def alarms(self, rows: Rows) -> Array:
-        """Probability (N,) of a spall at which each row is called."""
+        """Probability (N,) of a spall at which each row is called; an estimator of the user's has one for all rows."""
         if not isinstance(self.alarm, Alarm):
             return np.full(len(rows), self.alarm)
         return self.alarm.at(rows.table, of_several_axes(rows.record, rows.axis, rows.record))

@@ -147,15 +147,15 @@ def fit_calibration(made: list[Trial], columns: TrialColumns) -> Calibration:
 def _judgement(made: list[Trial], columns: TrialColumns, scores: list[Array]) -> tuple[Judgement, dict[str, CrossFit]]:
     """The judgement of the pairs that lead by `scores`, and how typical trials fare out of fold, by their noise."""
     rank = fit_rank(made, scores, columns.bearing)
-    lag = fit_guess(rank.rows, np.log(columns.lag / rank.lag), columns.bearing)
-    estimated_lag = np.minimum(rank.lag * np.exp(lag.centre), columns.period)
+    lag_fit = fit_guess(rank.rows, np.log(columns.lag / rank.lag), columns.bearing)
+    estimated_lag = np.minimum(rank.lag * np.exp(lag_fit.centre), columns.period)
     doubt = fit_doubt(rank.rows, estimated_lag, columns)
     error, expected = np.abs(estimated_lag / columns.true_lag - 1.0), doubt.expected
     most = most_doubt(columns, error, expected)
     true_arc = np.where(columns.arc > 0.0, columns.arc, np.nan)
-    arc = fit_guess(rank.rows, np.log(true_arc / rank.lag_arc), columns.bearing)
+    arc_fit = fit_guess(rank.rows, np.log(true_arc / rank.lag_arc), columns.bearing)
     usual = columns.as_stored & (expected <= most)
-    lag_guess, arc_guess = (replace(fitted.guess, reach=reach(fitted.missed, usual)) for fitted in (lag, arc))
+    lag_guess, arc_guess = (replace(fitted.guess, reach=reach(fitted.missed, usual)) for fitted in (lag_fit, arc_fit))
     scored = {"clean": columns.asked_clean, "as stored": columns.asked_as_stored}
     cross_fits = {noise: CrossFit(error[chosen], expected[chosen], most) for noise, chosen in scored.items()}
     return Judgement(rank.trees, lag_guess, arc_guess, doubt.trees, most), cross_fits

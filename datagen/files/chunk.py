@@ -58,8 +58,8 @@ def checksum(raw: NDArray[np.uint8]) -> bytes:
         square.reshape(-1)[: part.size] = part
         rows, columns = square @ ONES, ONES[: len(square)] @ square
         total = int(rows.sum(dtype=np.float64))
-        # The second sum adds up the first after every word, so that word k of n counts n - k times: as often as the part
-        # has words from its start on, less its place in the part. `before` is the sum of place times word.
+        # The second sum adds up the first after every word, so that word k of n counts n - k times: n less the start,
+        # less its place in the part. `before` is the sum of place times word.
         before = SIDE * (PLACES[: len(square)] @ rows) + PLACES @ columns
         first += total
         second += (words.size - start) * total - int(before)

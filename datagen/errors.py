@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from datetime import date, time
 
+# Values within more tables or lists than this are not shown.
+MOST_NESTED = 20
+
 
 class BadInput(Exception):
     """Input that cannot be used; `str` gives one clear line, and a command ends with exit code 2.
@@ -46,11 +49,13 @@ def value_text(value: object) -> str:
     return text if len(text) <= 120 else f"{text[:117]}..."
 
 
-def _as_toml(value: object) -> str:
+def _as_toml(value: object, depth: int = 0) -> str:
+    if isinstance(value, dict | list | tuple) and depth > MOST_NESTED:
+        return "..."
     if isinstance(value, dict):
-        return "{" + ", ".join(f"{key} = {_as_toml(inner)}" for key, inner in value.items()) + "}"
+        return "{" + ", ".join(f"{key} = {_as_toml(inner, depth + 1)}" for key, inner in value.items()) + "}"
     if isinstance(value, list | tuple):
-        return "[" + ", ".join(_as_toml(inner) for inner in value) + "]"
+        return "[" + ", ".join(_as_toml(inner, depth + 1) for inner in value) + "]"
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, date | time):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import re
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -17,6 +19,7 @@ from datagen.files.atomic import write_results
 from datagen.files.places import OUT, from_home, require_folder
 
 CARD, METADATA, VOCABULARY = "card.md", "croissant.json", "labels_bearing_datasets.csv"
+OF_A_RECORD = re.compile(r"record_\d{6,}\.png")
 MOST_EXAMPLES = 6
 
 
@@ -45,9 +48,9 @@ def write_report(folder: str | Path, out: str | Path | None = None) -> Report:
         raise BadInput("this corpus holds no records yet", str(folder))
     contents = _contents(folder, facts, out)
     write_results(out, contents)
-    for picture in out.glob("record_*.png"):
-        if picture.name not in contents:  # of an earlier report
-            picture.unlink()
+    for picture in filter(OF_A_RECORD.fullmatch, map(str, os.listdir(out))):
+        if picture not in contents:  # of an earlier report
+            (out / picture).unlink()
     return Report(str(out), tuple(contents), facts, unstated(facts))
 
 
@@ -76,5 +79,6 @@ def _shown(kinds: tuple[Kind, ...]) -> tuple[Kind, ...]:
 
 def _check_folder(out: Path) -> None:
     require_folder(out)
-    if out.is_dir() and any(out.iterdir()) and not (out / CARD).is_file():
+    held = set(os.listdir(out)) if out.is_dir() else set()
+    if held and not held >= {CARD, METADATA, VOCABULARY}:
         raise BadInput("this folder holds things other than a report", str(out), OUT)

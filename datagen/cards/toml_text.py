@@ -10,12 +10,16 @@ MOST_INLINE = 4
 
 
 def toml_text(data: Mapping[str, Any]) -> str:
-    """The TOML of nested mappings, lists, texts, numbers and truth values; None and empty lists are left out."""
+    """The TOML of nested mappings, lists, texts, numbers and truth values; None and empty lists are left out.
+
+    An empty mapping is written: a table of settings that are all as by default is not the same as none, which leaves
+    them to what is said elsewhere.
+    """
     return "\n".join(_table(data, "")).strip() + "\n"
 
 
 def _table(data: Mapping[str, Any], path: str) -> Iterator[str]:
-    known = {key: value for key, value in data.items() if value is not None and value != [] and value != {}}
+    known = {key: value for key, value in data.items() if value is not None and value != []}
     tables = {key: value for key, value in known.items() if _is_section(value)}
     for key, value in known.items():
         if key not in tables:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import json
 import os
 import sys
 from collections.abc import Callable
@@ -148,10 +149,12 @@ def _check_json(json_file: Path | None, **others: Any) -> None:
 
 
 def _may_be_json(path: Path) -> bool:
-    """Whether a file is empty or begins as our results do; also if it cannot be read, as writing it tells."""
+    """Whether a file is empty or holds JSON; also if it cannot be read, as writing it tells."""
     try:
-        with path.open("rb") as file:
-            return file.read(64).lstrip()[:1] in (b"", b"{", b"[")
+        content = path.read_bytes()
+        return not content.strip() or isinstance(json.loads(content), dict | list)
+    except (ValueError, RecursionError):
+        return False
     except OSError:
         return True
 

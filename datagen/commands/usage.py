@@ -71,7 +71,9 @@ class Program(TyperGroup):
         if getattr(problem, "option_name", None):
             return _of_option(problem, command)
         if command is self:
-            word = next(part for part in self._given if not part.startswith("-"))
+            word = next((part for part in self._given if not part.startswith("-")), "")
+            if not word:
+                return BadInput("a command is missing", field="spallgen", allowed=", ".join(self.commands))
             said = f"there is no such command{_meant(nearest(word, self.commands))}"
             return BadInput(said, field=word, allowed=", ".join(self.commands))
         said = problem.format_message().rstrip(".")
@@ -86,7 +88,7 @@ def _refuse_empty(command: Any, given: Sequence[str]) -> None:
     """
     options = {name: parameter.name for parameter in getattr(command, "params", ()) for name in parameter.opts}
     for before, part in zip(("", *given), given, strict=False):
-        name, equals, value = part.partition("=")
+        name, equals, value = part.partition("=") if part.startswith("--") else (part, "", "")
         option = name if equals else before
         if value or (part and not equals) or (option.startswith("-") and not _is_path(command, options.get(option))):
             continue

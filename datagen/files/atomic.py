@@ -15,6 +15,8 @@ from datagen.errors import BadInput
 from datagen.files.places import OUT
 
 TEMPORARY_SUFFIX = ".part"
+# Rights of its owner that every file has.
+OWNERS = stat.S_IRUSR | stat.S_IWUSR
 # By which a run holds its folder.
 LOCK = ".lock"
 # Seconds, in all and between two tries, that a run waits for what may be but the moment of a look by `is_held`.
@@ -32,7 +34,7 @@ def write_atomically(path: Path, data: bytes | memoryview) -> None:
 def opened_atomically(path: Path) -> Iterator[BinaryIO]:
     """A file to write into that is at `path` once the block ends well; after anything else the old one is as it was.
 
-    Who may read the old one may read the new one, and nobody else.
+    Who may read the old one may read the new one, as may its owner, and nobody else.
     """
     # A name that no other thread, process or computer has, and that is not too long where that of the file is not;
     # mkstemp would hide the file from all but its owner.
@@ -40,7 +42,7 @@ def opened_atomically(path: Path) -> Iterator[BinaryIO]:
     try:
         with temporary.open("xb") as file:
             with suppress(OSError):  # a new file, or a file system without such rights
-                os.fchmod(file.fileno(), stat.S_IMODE(path.stat().st_mode))
+                os.fchmod(file.fileno(), stat.S_IMODE(path.stat().st_mode) | OWNERS)
             yield file
             file.flush()
             os.fsync(file.fileno())

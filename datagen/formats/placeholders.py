@@ -25,7 +25,7 @@ def filled(text: str, path: Path, field: str, more: Mapping[str, str] | None = N
     values |= {"folder": path.parent.name, **(more or {})}
     try:
         return text.format(**values)
-    except (AttributeError, KeyError, IndexError, TypeError, ValueError):
+    except (AttributeError, KeyError, IndexError, OverflowError, TypeError, ValueError):
         nameless = "{number" in text and number is None
         problem = "cannot be filled in for this file" + (", whose name contains no number" if nameless else "")
         allowed = ", ".join(f"{{{name}}}" for name in values) + ", as in X{number:03}_DE_time"

@@ -28,8 +28,10 @@ class ProfileTable(Table):
     @model_validator(mode="before")
     @classmethod
     def _read(cls, value: object, info: ValidationInfo) -> object:
-        if not isinstance(value, str):
+        if isinstance(value, ProfileTable | dict):
             return value
+        if not isinstance(value, str):
+            raise refuse("", allowed=f"the name of a CSV file with the columns {' and '.join(COLUMNS)}")
         folder = (info.context or {}).get(FOLDER, Path())
         return {"name": Path(value).name} | read_table(Path(folder) / value)
 

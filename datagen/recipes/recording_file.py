@@ -34,7 +34,7 @@ def read_background(path: Path, channels: tuple[str, ...] | None, layout: CsvLay
     if not path.is_file():
         raise BadInput(no_file(path), str(path), "file")
     arrays = read_arrays(path, None, layout)
-    rate = float(np.asarray(arrays[RATE_NAME]).squeeze()) if RATE_NAME in arrays else None
+    rate = _rate(arrays[RATE_NAME], path) if RATE_NAME in arrays else None
     table = _named(arrays, channels, path) if channels else _only(arrays, path)
     if table.dtype.kind not in "iuf" or table.ndim != 2 or not table.size:
         raise _no_table(path)
@@ -43,6 +43,13 @@ def read_background(path: Path, channels: tuple[str, ...] | None, layout: CsvLay
             f"it has {table.shape[1]} columns", str(path), "channels", allowed='one or two, as in "data[:,0]"'
         )
     return RecordingFile(_finite(table, path), rate)
+
+
+def _rate(said: NDArray[np.generic], path: Path) -> float:
+    if said.size != 1 or said.dtype.kind not in "iuf":
+        number = f"{said.size} values" if said.dtype.kind in "iuf" else "no number"
+        raise BadInput(f"it holds {number}", str(path), RATE_NAME, allowed="one number, the sampling rate in Hz")
+    return float(said.reshape(()))
 
 
 def _named(arrays: Arrays, channels: tuple[str, ...], path: Path) -> NDArray[np.generic]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import time
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -62,13 +63,20 @@ def import_recordings(spec: Spec, folder: str | Path, root: str | Path | None = 
     takes long. Raises BadInput for anything wrong in the SPEC or the files, before `folder` is touched.
     """
     with remembered_files():
-        return _import(spec, from_home(folder), from_home(root) if root else _stated_root(spec), _seldom(step))
+        return _import(spec, from_home(folder), _given_root(root) if root else _stated_root(spec), _seldom(step))
 
 
 def _seldom(step: Say) -> Say:
     """`step`, passed on no more often than a person can read."""
     reports = Throttle(SECONDS_BETWEEN_STEPS, time.monotonic() + SECONDS_BETWEEN_STEPS)
     return lambda sentence: step(sentence) if reports.due(time.monotonic()) else None
+
+
+def _given_root(root: str | Path) -> Path:
+    found = from_home(root)
+    if not found.is_dir():
+        raise BadInput("no such folder", field="--root", value=str(root), allowed="the folder of the recordings")
+    return found
 
 
 def _stated_root(spec: Spec) -> Path:
@@ -130,7 +138,7 @@ def _require_new(folder: Path) -> None:
             "an import puts a folder of its own in this place, and one that a file system is mounted on cannot be "
             "replaced", str(folder), OUT, allowed="a folder in it, or another one, new or empty",
         )  # fmt: skip
-    if folder.resolve() == Path.cwd():
+    if folder.exists() and os.path.samefile(folder, "."):
         raise BadInput(
             "an import puts a folder of its own in this place, and the current one cannot be replaced", str(folder),
             OUT, allowed="another folder, new or empty",

@@ -56,7 +56,8 @@ def list_requests(spec: Spec, root: Path) -> Listing:
         tables |= found.tables
         absent += found.absent
     if not requests:
-        raise BadInput(f"none of its files is below {root}, or all are left out", str(spec.source), "root", str(root))
+        problem = f"none of its files is below {root}, or all are left out"
+        raise BadInput(problem, str(spec.source), "recording", allowed="files of which one at least is there")
     return Listing(tuple(requests), tables, tuple(absent))
 
 

@@ -204,8 +204,10 @@ class RecordingSettings(Table):
 
 
 ALTERNATIVES = (("speed_rpm", "speed_hz", "tach"), ("extent_mm", "extent_deg"))
-REPLACED_BY = {name: group for group in (*ALTERNATIVES, ("x", "y", "channel")) for name in group} | {
-    "channel": ("x", "y", "channel_name", "channel")
+REPLACED_BY = {name: group for group in ALTERNATIVES for name in group} | {
+    "x": ("channel",),
+    "y": ("channel",),
+    "channel": ("x", "y", "channel_name"),
 }
 
 

@@ -231,14 +231,10 @@ class Source:
         if not isinstance(said, FromVariable) or not self.variable(said.variable, name):
             return None
         found = choose(self.arrays, said.variable, self.path, name)
-        if (
-            found.ndim != 1
-            or found.dtype.kind not in "iuf"
-            or found.size < FEWEST_STORED_SAMPLES
-            or not ((found >= 0).all() and found.any())
-        ):
+        if found.ndim != 1 or found.dtype.kind not in "iuf" or found.size < FEWEST_STORED_SAMPLES:
             return None
-        return _within(found, span).astype(np.float64) * said.factor
+        numbers = found.astype(np.float64) * said.factor
+        return _within(numbers, span) if (numbers >= 0.0).all() and numbers.any() else None
 
     def or_none(self, name: str, span: Span = WHOLE) -> float | None:
         """As `number`, but None where the file lacks the variable."""

@@ -61,6 +61,14 @@ class Recording(RecordingSettings):
             raise refuse("the table alone says which files are meant", "leave_out", "with files only")
         return self
 
+    @model_validator(mode="after")
+    def _notes_are_no_settings(self) -> Recording:
+        for column in self.note_columns:
+            if column == "file" or column in RecordingSettings.model_fields:
+                problem = f'"{column}" is a column that says something else, and is never a note'
+                raise refuse(problem, "note_columns", "columns that are not called like a setting")
+        return self
+
     @property
     def patterns(self) -> tuple[str, ...]:
         """The patterns of files, none if a table lists them."""

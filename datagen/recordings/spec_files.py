@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
 from datagen.errors import BadInput
@@ -19,8 +18,11 @@ def shipped_specs() -> dict[str, Path]:
 def find_spec(path_or_name: str | Path) -> Path:
     """File of a SPEC given as a file or by name ("cwru"); raises BadInput."""
     path = Path(path_or_name)
-    if os.path.isfile(path):  # False too for a name too long for a file
-        return path
+    try:
+        if path.is_file():
+            return path
+    except OSError as problem:
+        raise BadInput(f"cannot be read: {problem.strerror}", file=str(path)) from None
     shipped = shipped_specs()
     if path.name in shipped and path.parent == Path():
         return shipped[path.name]

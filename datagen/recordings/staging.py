@@ -7,7 +7,7 @@ import re
 import shutil
 import socket
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from datagen.corpus_files.shard import shards_folder
@@ -26,6 +26,7 @@ def staged(folder: Path) -> Iterator[Path]:
     folder = folder.resolve()
     beginning = f".{folder.name}.{socket.gethostname()}."
     staging = folder.with_name(f"{beginning}{os.getpid()}{TEMPORARY_SUFFIX}")
+    new = [path for path in folder.parents if not path.exists()]
     _sweep(folder.parent, beginning)
     try:
         with writing(folder):
@@ -38,6 +39,10 @@ def staged(folder: Path) -> Iterator[Path]:
             sync_folder(folder.parent)
     finally:
         shutil.rmtree(staging, ignore_errors=True)
+        if not folder.exists():
+            with suppress(OSError):
+                for path in new:
+                    path.rmdir()
 
 
 @contextmanager

@@ -114,14 +114,21 @@ def _one_of_each_size(planned: Iterable[PlannedShard]) -> list[PlannedShard]:
 
 
 def _require_record(recipe: Recipe, rate: float, duration: float, need: float) -> None:
-    memory = memory_bytes()
-    if need > memory:
-        raise _refusal(
-            recipe, ("signal", "duration_s"),
-            f"a record of {rate * duration:.3g} samples needs about {bytes_text(need)} of memory, and this machine has "
-            f"{bytes_text(memory)}",
-            duration, f"at most about {duration * memory / need:.2g} s at {rate:g} Hz",
-        )  # fmt: skip
+    memory, settling = memory_bytes(), recipe.signal.settle_s
+    if need <= memory:
+        return
+    longest = (duration + settling) * memory / need
+    setting, value, other = ("duration_s", duration, settling)
+    if settling >= longest > duration:
+        setting, value, other = ("settle_s", settling, duration)
+    begin = f" after {settling:g} s of settling" if settling else ""
+    room = f"{longest - other:.2g} s" if longest > other else f"{longest:.2g} s, settle_s included,"
+    raise _refusal(
+        recipe, ("signal", setting),
+        f"a record of {rate * duration:.3g} samples{begin} needs about {bytes_text(need)} of memory, and this machine "
+        f"has {bytes_text(memory)}",
+        value, f"at most about {room} at {rate:g} Hz",
+    )  # fmt: skip
 
 
 def _refusal(recipe: Recipe, location: Location, problem: str, value: object, allowed: str) -> BadInput:

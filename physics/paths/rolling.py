@@ -72,7 +72,9 @@ def roll(
     # A corner belongs to the good race, on which a ball can hang, or to a surface that stands proud of it.
     corners = [reach - first, reach - first + count * POINTS_A_STEP]
     depth[corners] = np.minimum(probe[[0, -1]], 0.0)
-    drop, point = _roll(depth, reach, fine, ball)
+    steps = (depth.size - 2 * reach - 1) // POINTS_A_STEP + 1
+    drop, point = np.empty(steps), np.empty(steps, dtype=np.int64)
+    _roll(depth, reach, fine, ball, drop, point)
     arc = points[reach : points.size - reach : POINTS_A_STEP]
     held = Held(points[point], depth[point], drop)
     hold_on_lips(surface, ball, arc, held, lips, fine * reach)
@@ -95,13 +97,13 @@ def _margins(depths: Array, ball: Ball, fine: float) -> tuple[int, int]:
 
 
 @njit
-def _roll(depth: Array, reach: int, step: float, ball: Ball) -> tuple[Array, Index]:
-    """Drop at every point of the path and the number of the surface's point that holds the ball, by trying each of the
-    `reach` neighbours on both sides.
+def _roll(depth: Array, reach: int, step: float, ball: Ball, drop: Array, contact: Index) -> None:
+    """Fill in the `drop` (P,) at every point of the path and the number of the surface's point that holds the ball, its
+    `contact` (P,), by trying each of the `reach` neighbours on both sides.
 
-    Neighbours are taken block by block, and blocks whose highest point cannot touch first are passed over.
+    Neighbours are taken block by block, and blocks whose highest point cannot touch first are passed over. This may
+    take long, and nothing is returned: Ctrl-C while numba hands over a tuple would end the process with a crash.
     """
-    count = (depth.size - 2 * reach - 1) // POINTS_A_STEP + 1
     size = BLOCKED * POINTS_A_STEP
     cosine = np.cos(step * np.arange(reach + 3))
     sine = np.sin(step * np.arange(reach + 3))
@@ -109,8 +111,7 @@ def _roll(depth: Array, reach: int, step: float, ball: Ball) -> tuple[Array, Ind
     highest, deepest = np.empty(blocks), depth.max()
     for block in range(blocks):
         highest[block] = depth[block * size : (block + 1) * size].min()
-    drop, contact = np.empty(count), np.empty(count, dtype=np.int64)
-    for k in range(count):
+    for k in range(drop.size):
         centre = k * POINTS_A_STEP + reach
         least, best = drop_on(ball, depth[centre], 1.0, 0.0), centre
         for block in range((centre - reach) // size, (centre + reach) // size + 1):
@@ -124,7 +125,6 @@ def _roll(depth: Array, reach: int, step: float, ball: Ball) -> tuple[Array, Ind
                 if found < least:
                     least, best = found, point
         drop[k], contact[k] = least, best
-    return drop, contact
 
 
 @njit_inline

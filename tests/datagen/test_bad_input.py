@@ -208,6 +208,7 @@ def test_the_recipe_without_mistakes_is_made(tmp_path: Path) -> None:
         (f"balls = {'9' * 5000}", "a whole number in it has too many digits"),
         (f"balls = 0x{'f' * 5000}", "a whole number in it has too many digits"),
         (f"balls = {'[' * 100_000}", "nested too deeply"),
+        (f"balls = {'[' * 300}{']' * 300}", f"part[1].machine.balls = {'[' * 21}...{']' * 21}"),
     ],
 )
 def test_numbers_beyond_all_machines_are_refused(line: str, message: str, tmp_path: Path) -> None:

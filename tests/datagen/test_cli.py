@@ -202,6 +202,23 @@ def test_an_empty_value_is_refused_and_does_not_mean_the_current_folder(
     assert list(tmp_path.iterdir()) == []
 
 
+def test_an_argument_that_ends_in_an_equals_sign_is_not_empty(
+    tiny_corpus: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "q=").symlink_to(tiny_corpus)
+    assert run("info", "q=").exit_code == 0
+    assert "--known-size" in run("size", "q=", "--known-size", "3=").stderr
+
+
+@pytest.mark.parametrize("sign", ["-", "--"])
+def test_signs_alone_are_no_command(sign: str) -> None:
+    code, _, message = run(sign)
+    assert code == 2
+    assert message.startswith("error: ")
+    assert "Traceback" not in message
+
+
 LEARNED = "a file that --save wrote, transfer-rows, impulse-trains or impulse-trains-without-INGREDIENT"
 
 
@@ -298,6 +315,11 @@ def test_results_replace_earlier_ones_and_no_file_of_another_kind(tmp_path: Path
     code, _, message = run("catalog", "--json", recorded)
     assert code == 2
     assert f'--json = "{recorded}": this file holds something else than JSON, which would be lost' in message
+    for text in ('[project]\nname = "mine"\n', '{"half": 1', "3\n"):
+        recorded.write_text(text)
+        assert run("catalog", "--json", recorded).exit_code == 2
+        assert recorded.read_text() == text
+    recorded.write_text("0.1,0.2\n")
     assert recorded.read_text() == "0.1,0.2\n"
     for _ in range(2):  # first of an empty file
         assert run("catalog", "--json", results).exit_code == 0

@@ -28,6 +28,8 @@ from datagen.errors import BadInput
 from datagen.recipes.recipe import Recipe, parse_recipe
 from datagen.recordings.importing import import_recordings
 from datagen.recordings.spec import load_spec
+from datagen.runs.generate import generate
+from datagen.runs.workers import Engine
 
 SPEC = """
 name = "two"
@@ -118,6 +120,17 @@ def test_toml_text_is_read_back_as_the_same_data() -> None:
         "part": [{"name": "one", "machine": {"rig": "fan"}, "defect": {"line": {"a": {"b": 1}}}}, {"name": "two"}],
     }  # fmt: skip
     assert tomllib.loads(toml_text(data | {"nothing": None, "empty": []})) == data
+
+
+def test_a_table_of_defaults_alone_that_goes_before_a_wider_one_is_in_the_card(
+    tiny_recipe: Path, tmp_path: Path
+) -> None:
+    content = tomllib.loads(tiny_recipe.read_text()) | {"background": {"white_rms_m_s2": 1.0}}
+    content["part"] = [part | {"background": {"white_rms_m_s2": 0.0}} for part in content["part"]]
+    recipe = parse_recipe(content, tmp_path / "recipe.toml")
+    assert generate(recipe, tmp_path / "out", limit=1, engine=Engine(workers=1)).made == 1
+    text = origin_text(Corpus(tmp_path / "out").manifest)
+    assert parse_recipe(tomllib.loads(text), Path("card")).hash == recipe.hash
 
 
 def test_toml_keeps_zeros_false_and_empty_texts() -> None:
@@ -273,6 +286,12 @@ def test_a_report_is_written_over_an_earlier_one_but_over_nothing_else(measured:
     with pytest.raises(BadInput, match="this folder holds things other than a report"):
         write_report(measured, tmp_path / "other")
     assert [path.name for path in (tmp_path / "other").iterdir()] == ["letter.txt"]
+    (tmp_path / "other" / "card.md").write_text("of somebody else")
+    with pytest.raises(BadInput, match="this folder holds things other than a report"):
+        write_report(measured, tmp_path / "other")
+    (tmp_path / "card" / "record_holiday.png").write_bytes(b"a picture")
+    write_report(measured, tmp_path / "card")
+    assert (tmp_path / "card" / "record_holiday.png").exists()
 
 
 def test_the_command_writes_the_facts_as_json_and_refuses_a_folder_without_a_corpus(

@@ -79,6 +79,9 @@ def test_who_may_read_a_file_stays_who_may_read_what_replaces_it(tmp_path):
     secret.chmod(0o600)
     write_atomically(secret, b"new")
     assert (secret.read_bytes(), stat.S_IMODE(secret.stat().st_mode)) == (b"new", 0o600)
+    secret.chmod(0)  # its owner could not even read what replaces it
+    write_atomically(secret, b"newer")
+    assert stat.S_IMODE(secret.stat().st_mode) == 0o600
 
 
 def test_what_a_killed_writer_leaves_is_swept(tmp_path: Path) -> None:

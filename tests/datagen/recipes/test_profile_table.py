@@ -64,3 +64,11 @@ def test_a_table_that_is_no_text_is_refused_by_its_path(tmp_path: Path) -> None:
 def test_a_missing_table_is_refused_by_its_path(tmp_path: Path) -> None:
     with pytest.raises(ValidationError, match=r"none\.csv cannot be read"):
         ProfileTable.model_validate("none.csv", context={FOLDER: tmp_path})
+
+
+@pytest.mark.parametrize("given", [5, True, ["pit.csv"]])
+def test_what_names_no_file_is_refused_with_what_would(given: object) -> None:
+    with pytest.raises(ValidationError) as caught:
+        ProfileTable.model_validate(given)
+    context = caught.value.errors()[0]["ctx"]
+    assert context["allowed"] == "the name of a CSV file with the columns angle_deg and depth_um"

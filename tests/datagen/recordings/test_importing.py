@@ -27,8 +27,10 @@ from datagen.files.digest import file_hash
 from datagen.inspection.check import check_corpus
 from datagen.inspection.conformity import violations
 from datagen.inspection.info import corpus_info
+from datagen.recordings.importing import import_recordings
 from datagen.recordings.listing import Request
 from datagen.recordings.recorded import Recorded, read_recording
+from datagen.recordings.spec import load_spec
 from labels.envelope import band_envelope
 from labels.schema import LABEL
 
@@ -337,6 +339,52 @@ def test_overrides_go_before_tables_and_tables_before_the_rest(bring: Bring, mat
     assert table["bearing_id"].tolist() == ["x", "y", "unknown"]
     assert corpus_info(corpus.folder).bearings_text == "2 (unknown 2); 1 record of unknown ones"
     assert json.loads(corpus.waveform(2, "provenance"))["notes"] == {"odd": True}
+
+
+def test_an_override_of_one_axis_leaves_the_other(bring: Bring, mat: Mat) -> None:
+    for name in ("a.mat", "b.mat"):
+        mat(name, other=noise(seed=5)[:, None], third=noise(seed=6)[:, None])
+    corpus = bring(
+        '[defaults]\nunit = "g"\nrate_hz = 1000\n[[recording]]\nname = "all"\nfiles = "*.mat"\nx = "sig"\ny = "other"\n'
+        'override = [{files = "b*", y = "third"}]\n'
+    )
+    assert [corpus.waveform(record, "acceleration").shape[-1] for record in (0, 1)] == [2, 2]
+    plain, changed = (corpus.waveform(record, "acceleration")[:, 1] for record in (0, 1))
+    assert np.corrcoef(plain, noise(seed=5))[0, 1] == pytest.approx(1.0)
+    assert np.corrcoef(changed, noise(seed=6))[0, 1] == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("column", ["speed_rpm", "file", "location"])
+def test_no_column_that_says_something_else_is_a_note(column: str, bring: Bring, mat: Mat, tmp_path: Path) -> None:
+    mat("a.mat")
+    (tmp_path / "t.csv").write_text("file,speed_rpm,location\na.mat,3000,outer\n")
+    with pytest.raises(BadInput, match=f'"{column}" is a column that says something else, and is never a note'):
+        bring(
+            '[[recording]]\nname = "all"\ntable = "t.csv"\nunit = "g"\nrate_hz = 1000\ny = "sig"\n'
+            f'note_columns = ["{column}"]\n'
+        )
+
+
+def test_a_root_that_is_not_there_is_blamed_on_who_named_it(bring: Bring, mat: Mat, tmp_path: Path) -> None:
+    text = '[[recording]]\nname = "all"\nfiles = "a.mat"\nunit = "g"\nrate_hz = 1000\ny = "sig"\n'
+    with pytest.raises(BadInput, match=r'spec\.toml: root = ".*nowhere": no such folder'):
+        bring('root = "nowhere"\n' + text)
+    with pytest.raises(BadInput, match=r'^--root = "elsewhere": no such folder; allowed: the folder of the recordings'):
+        import_recordings(load_spec(tmp_path / "spec.toml"), tmp_path / "out", "elsewhere")
+
+
+def test_an_import_that_fails_leaves_no_folder(mat: Mat, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    mat("a.mat")
+    text = '[[recording]]\nname = "all"\nfiles = "a.mat"\nunit = "g"\nrate_hz = 1000\ny = "sig"\n'
+    (tmp_path / "spec.toml").write_text('name = "mine"\n' + text)
+
+    def full(*_: object) -> None:
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr("datagen.recordings.importing.write_shard", full)
+    with pytest.raises(BadInput, match="cannot write here: No space left on device"):
+        import_recordings(load_spec(tmp_path / "spec.toml"), tmp_path / "new" / "deep" / "corpus")
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["a.mat", "spec.toml"]
 
 
 def test_the_current_folder_is_refused_before_anything_is_read(

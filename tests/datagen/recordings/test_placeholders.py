@@ -76,6 +76,11 @@ def test_the_number_of_a_file_is_the_first_in_its_name() -> None:
     assert filled("{number:03}", Path("run7/b12_load3.mat"), "y") == "012"
 
 
+def test_a_number_too_large_for_a_letter_is_refused() -> None:
+    with pytest.raises(BadInput, match="cannot be filled in for this file"):
+        filled("{number:c}", Path("a99999999999.npz"), "y")
+
+
 @pytest.mark.parametrize("text", ["{stem.real_name}", "{stem[a]}", "{what}", "{1}", "{", "{stem:d}"])
 def test_braces_that_mean_nothing_are_refused_with_those_that_do(text: str) -> None:
     with pytest.raises(BadInput) as problem:

@@ -518,3 +518,16 @@ def test_a_tenth_of_the_pulses_of_a_tach_may_be_wrong(bring: Bring, mat: Mat, lo
         return
     with pytest.raises(BadInput, match="9 of the 80 pulses of its tach are missing or double"):
         bring(TACH)
+
+
+@pytest.mark.parametrize("factor", [1.0, -1.0])
+def test_a_channel_of_speed_counts_with_its_factor(factor: float, bring: Bring, mat: Mat) -> None:
+    speeds = np.linspace(600.0, 1800.0, 2000)
+    mat("run.mat", np.random.default_rng(1).standard_normal(8000), speed=factor * speeds[:, None])
+    corpus = bring(
+        '[[recording]]\nname = "all"\nfiles = "*.mat"\nunit = "g"\nrate_hz = 4000\ny = "sig"\n'
+        f'speed_rpm = {{variable = "speed", factor = {factor}}}\n'
+    )
+    assert corpus.labels["speed_rpm"][0] == pytest.approx(1200.0, rel=1e-3)
+    # 2 s at 20 turns a second on average, from 10 to 30.
+    assert corpus.waveform(0, "shaft_angle")[-1] / (2.0 * np.pi) == pytest.approx(40.0, rel=1e-3)

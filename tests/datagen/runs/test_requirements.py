@@ -144,6 +144,30 @@ def test_what_settles_before_a_record_takes_memory_too(refused: Refused, monkeyp
     )
 
 
+@pytest.mark.parametrize(
+    ("duration", "settling", "told"),
+    [
+        (0.05, 0.02, "signal.duration_s = 0.05: {}; allowed: at most about 0.029 s at 32768 Hz"),
+        (0.02, 0.05, "signal.settle_s = 0.05: {}; allowed: at most about 0.029 s at 32768 Hz"),
+        (0.2, 0.05, "signal.duration_s = 0.2: {}; allowed: at most about 0.049 s, settle_s included, at 32768 Hz"),
+    ],
+)
+def test_what_is_advised_where_memory_is_short_would_fit(
+    duration: float, settling: float, told: str, refused: Refused, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    room = 220.0 * 32768.0 * 0.049  # of 0.049 s at 220 bytes a sample
+    monkeypatch.setattr("datagen.runs.requirements.memory_bytes", lambda: room)
+    monkeypatch.setattr("datagen.runs.requirements.draw_scenario", None)
+    message = refused(
+        TEXT.replace("duration_s = 0.05", f"duration_s = {duration}\nsettle_s = {settling}").replace(
+            "[10, 40]", "[100, 400]"
+        )
+    )
+    begin, end = told.split("{}")
+    assert begin in message
+    assert message.rstrip().endswith(end)
+
+
 def test_a_drawn_record_that_no_memory_holds_is_refused_though_the_shortest_fits(
     refused: Refused, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -46,7 +46,7 @@ LABELS_SHOWN = (
     "duration_s",
     "snr_db",
 )
-OF_RECORD = ("reason", "levelled", "despiked", "shocks_cut", "in_mains", "in_shaft")
+OF_RECORD = ("reason", "levelled", "despiked", "shocks_cut", "in_mains", "in_shaft", "bands")
 OF_ROW = ("axis", "window", "noisy", *OF_RECORD, "found_speed_rpm")
 COLUMNS = ("corpus", *LABELS_SHOWN, "class", *OF_ROW, *FEATURE_NAMES)
 
@@ -124,7 +124,7 @@ def _record_rows(found: RecordRows, axes: Sequence[str], as_learned: bool) -> It
     """What OF_ROW and the features are in each row of one record."""
     facts = found.facts
     hidden = (" ".join(facts.in_mains), " ".join(facts.in_shaft))
-    of_record = (facts.reason, facts.jumps, facts.glitches, facts.shocks, *hidden)
+    of_record = (facts.reason, facts.jumps, facts.glitches, facts.shocks, *hidden, facts.bands)
     if not found.rows or (facts.reason and not as_learned):
         nothing = [math.nan] * (1 + len(FEATURE_NAMES))
         yield ("", 0, False, *of_record, *nothing)

@@ -22,6 +22,7 @@ FACTS = (
     "shocks_cut",
     "in_mains",
     "in_shaft",
+    "bands",
     "found_speed_rpm",
 )
 SAID = ("location", "score", "alarm")
@@ -50,8 +51,9 @@ class Prediction:
 
     `truth` is its location, `rejected` why it was rejected ("" if it was not). So many jumps were `levelled`, glitches
     replaced (`despiked`) and `shocks_cut`. `in_mains` and `in_shaft` name the races whose faults hide among multiples
-    of the mains and of the shaft's speed ("", "outer", "inner" or "outer inner"), `found_speed_rpm` the shaft speed at
-    which lines were looked for (None without features).
+    of the mains and of the shaft's speed ("", "outer", "inner" or "outer inner"). So many `bands` were searched for
+    modulation (0 without features), and `found_speed_rpm` is the shaft speed at which lines were looked for (None
+    without features).
     """
 
     record: int
@@ -64,6 +66,7 @@ class Prediction:
     shocks_cut: int
     in_mains: str
     in_shaft: str
+    bands: int
     found_speed_rpm: float | None
     models: dict[str, ModelAnswer]
 
@@ -91,6 +94,7 @@ def record_predictions(tested: Tested) -> list[Prediction]:
             shocks_cut=facts.shocks,
             in_mains=" ".join(facts.in_mains),
             in_shaft=" ".join(facts.in_shaft),
+            bands=facts.bands,
             found_speed_rpm=None if facts.found_rpm is None else float(f"{facts.found_rpm:.6g}"),
             models={said.name: _answer(said, place) for said in tested.verdicts},
         )

@@ -17,9 +17,10 @@ from datagen.benchmark.fitness import unfit
 from datagen.benchmark.reading_policy import Reading
 from datagen.benchmark.rows import Rows
 from datagen.judging.known import known_kinematics
+from labels.band_tree import band_edges, usable_bandwidth
 from labels.classifier.liveness import DEAD, liveness, recorder_step
 from labels.dead_sensor import is_dead
-from labels.features.analysis import analyse
+from labels.features.analysis import NARROWEST_BAND, analyse
 from labels.features.conditioning import FEWEST_SAMPLES_USED
 from labels.features.kinematics import Kinematics
 from labels.features.known_lines import races_in_mains, races_in_shaft
@@ -60,9 +61,9 @@ class RecordFacts:
 
     `reason` says why it must not be classified, "" if it may be. So many `jumps` were levelled in it, `glitches`
     replaced and `shocks` cut; `in_mains` and `in_shaft` are the races whose faults hide among multiples of the mains
-    and of the shaft's speed. `found_rpm` is the speed of the shaft that was found, rpm: the median over the rows
-    without added noise, None without any. It is `far_from_stated` if it lies at the edge of what is searched beside the
-    stated speed.
+    and of the shaft's speed, and so many `bands` were searched for modulation. `found_rpm` is the speed of the shaft
+    that was found, rpm: the median over the rows without added noise, None without any. It is `far_from_stated` if it
+    lies at the edge of what is searched beside the stated speed.
     """
 
     reason: str = ""
@@ -71,6 +72,7 @@ class RecordFacts:
     shocks: int = 0
     in_mains: tuple[str, ...] = ()
     in_shaft: tuple[str, ...] = ()
+    bands: int = 0
     found_rpm: float | None = None
     far_from_stated: bool = False
 
@@ -126,10 +128,17 @@ def record_rows(
         shocks=shocks,
         in_mains=in_mains,
         in_shaft=races_in_shaft(kinematics, step),
+        bands=_band_count(kinematics, usable_bandwidth(rate, reading.bandwidth)) if rows else 0,
         found_rpm=found_rpm,
         far_from_stated=found_rpm is not None and _is_far(found_rpm, kinematics),
     )
     return RecordRows(rows, facts)
+
+
+def _band_count(kinematics: Kinematics, bandwidth: float) -> int:
+    """How many bands of the `bandwidth` (Hz) hold enough harmonics of the ball passes to be searched; all of it is one
+    of them in any case."""
+    return len(band_edges(bandwidth, NARROWEST_BAND * kinematics.bpfi * kinematics.shaft_hz))
 
 
 def _found_rpm(rows: Sequence[Row]) -> float | None:

@@ -109,7 +109,7 @@ def _require_scoring(scoring: Scoring) -> None:
 
 def _require_use(asked: Benchmark) -> None:
     """Raise BadInput unless the trained models are scored or saved, and options of learning come with something that is
-    yet to be learned from, or read, by them."""
+    yet to be learned from, or read, by them. Features that are kept were read at many bandwidths: they go with any."""
     train, save, learning = asked.train, asked.save, asked.learning
     if save is None and not asked.tests:
         raise BadInput("nothing to score on", field="--test", allowed=f"a corpus, or {SAVE} FILE to learn only")
@@ -122,9 +122,8 @@ def _require_use(asked: Benchmark) -> None:
         changed += ["learning_curve"] * asked.learning_curve + [SAVE.removeprefix("--")] * (save is not None)
         if changed:
             raise BadInput(f"{train} has learned already", field=_option(changed[0]), allowed=WITH_A_CORPUS)
-    read_by = [name for name in changed if name in ("bandwidth", "speed_error")]
-    if is_kept(train) and read_by:
-        raise BadInput(f"{train} have been read already", field=_option(read_by[0]), allowed=WITH_A_CORPUS)
+    if is_kept(train) and "speed_error" in changed:
+        raise BadInput(f"{train} have been read already", field="--speed-error", allowed=WITH_A_CORPUS)
 
 
 def _changed(learning: Learning) -> list[str]:

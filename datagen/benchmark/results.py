@@ -17,8 +17,8 @@ class CorpusScores:
     `locations` counts the records by their true location, `rejections` by the reason why none of them can be judged;
     `levelled`, `despiked` and `shocks_cut` count the jumps, glitches and shocks taken out, and the records that had
     any; `in_mains` and `in_shaft` count the records in which the faults of a race hide among multiples of the mains
-    and of the shaft's speed, `far_from_stated` those whose shaft was found at the edge of what is searched beside its
-    stated speed.
+    and of the shaft's speed, `few_bands` those in which ball passes leave room for three bands at most, and
+    `far_from_stated` those whose shaft was found at the edge of what is searched beside its stated speed.
     """
 
     corpus: str
@@ -31,6 +31,7 @@ class CorpusScores:
     shocks_cut: dict[str, int]
     in_mains: dict[str, int]
     in_shaft: dict[str, int]
+    few_bands: int
     far_from_stated: int
     models: dict[str, Scores]
 

@@ -32,6 +32,10 @@ IN_SHAFT = (
     "balls pass the {race} race at a multiple of the shaft's speed, which is not counted: a fault of it is hardly seen "
     "unless the cage slips"
 )
+FEW_BANDS = (
+    "balls pass so fast for the bandwidth that is looked at that impacts ring into each other: a fault is hardly seen; "
+    "see --bandwidth"
+)
 FAR_FROM_STATED = (
     "the shaft was found about as far from its stated speed as is searched: if that is wrong by still more, lines of "
     "one race are taken for those of the other"
@@ -158,18 +162,25 @@ def print_results(tests: list[CorpusResults]) -> None:
         for reason, count in found.rejections.items():
             print(f"  rejected   {count}: {reason}")
         print_mended(found)
-        for name, counts, meaning in (("in mains", found.in_mains, IN_MAINS), ("in shaft", found.in_shaft, IN_SHAFT)):
-            for race, count in counts.items():
-                if count:
-                    print(f"  {name}   {count}: {meaning.format(race=race)}")
-        if found.far_from_stated:
-            print(f"  speeds     {found.far_from_stated}: {FAR_FROM_STATED}")
+        print_doubts(found)
         for noisy in test.noise if scored else ():
             for name, scores in noisy.scores.models.items():
                 print(f"  {name:10} {noisy.snr_db:g} dB: {score_line(scores)}")
         unscored = [prediction for prediction in test.predictions if prediction.truth not in LOCATIONS]
         if unscored:
             show_tables([verdict_table(unscored, list(found.models))])
+
+
+def print_doubts(found: CorpusScores) -> None:
+    """Print how many records of a corpus may have a fault that is not seen, or were judged at a wrong speed."""
+    for name, counts, meaning in (("in mains", found.in_mains, IN_MAINS), ("in shaft", found.in_shaft, IN_SHAFT)):
+        for race, count in counts.items():
+            if count:
+                print(f"  {name}   {count}: {meaning.format(race=race)}")
+    if found.few_bands:
+        print(f"  few bands  {found.few_bands}: {FEW_BANDS}")
+    if found.far_from_stated:
+        print(f"  speeds     {found.far_from_stated}: {FAR_FROM_STATED}")
 
 
 def print_learning_curve(results: Results) -> None:

@@ -9,6 +9,7 @@ import typer
 
 from datagen.commands.program import JsonFile, command, write_json
 from datagen.commands.progress_display import show_steps
+from datagen.counts import counted
 from datagen.processes import MOST_WORKERS
 
 if TYPE_CHECKING:
@@ -66,7 +67,8 @@ def features(
     write_json(json_file, facts)
     for reason, count in facts["rejected"].items():
         print(f"rejected {count}: {reason}")
-    print(f"{facts['rows']} rows of {facts['records']} records are in {out}")
+    verb = "is" if facts["rows"] == 1 else "are"
+    print(f"{counted(facts['rows'], 'row')} of {counted(facts['records'], 'record')} {verb} in {out}")
 
 
 def _counts(table: pandas.DataFrame) -> dict[str, Any]:

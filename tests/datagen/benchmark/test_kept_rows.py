@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import numpy as np
@@ -20,6 +21,8 @@ from datagen.corpus import Corpus
 from datagen.errors import BadInput
 from datagen.progress import SILENT
 from datagen.recipes.recipe import load_recipe
+from datagen.recordings.importing import import_recordings
+from datagen.recordings.spec import load_spec
 from datagen.runs.generate import generate
 from datagen.runs.workers import Engine
 from labels.features.table import FEATURE_NAMES
@@ -136,6 +139,33 @@ def test_classify_says_that_it_does_not_learn_from_a_folder_of_their_name(other_
     assert '"transfer-rows" is what comes with the program' in " ".join(done.output.split())
 
 
+@pytest.fixture
+def spinning(tmp_path):
+    """A corpus of one recording of noise, of a small bearing at 3000 rpm."""
+    np.save(tmp_path / "a.npy", np.random.default_rng(1).standard_normal(20_000))
+    (tmp_path / "spec.toml").write_text(
+        'name = "spinning"\n[[recording]]\nname = "all"\nfiles = "a.npy"\nunit = "g"\nrate_hz = 20000\ny = "data"\n'
+        'speed_rpm = 3000\nbearing = "skf_6205"\n'
+    )
+    import_recordings(load_spec(tmp_path / "spec.toml"), tmp_path / "spinning")
+    return tmp_path / "spinning"
+
+
+def test_records_may_be_looked_at_up_to_any_frequency(spinning, tmp_path):
+    bands = {}
+    for bandwidth in ("2000", "8000"):
+        report = tmp_path / f"{bandwidth}.json"
+        options = ("--first", "40", "--learner", "logistic", "--bandwidth", bandwidth, "--json", report)
+        done = run("classify", "--test", spinning, *options)
+        assert done.exit_code == 0, done.output
+        (test,) = json.loads(report.read_text())["tests"]
+        bands[bandwidth] = test["predictions"][0]["bands"]
+        assert test["few_bands"] == (bandwidth == "2000")
+        assert ("impacts ring into each other" in " ".join(done.output.split())) == (bandwidth == "2000")
+    # A band holds three and a half times BPFI, 948 Hz here: one of 2 kHz, and of 8 kHz the halves and quarters too.
+    assert bands == {"2000": 3, "8000": 15}
+
+
 def test_no_record_is_scored_of_a_machine_that_they_hold(beginning):
     done = run("classify", "--learner", "logistic", "--test", beginning)
     assert done.exit_code == 2
@@ -145,7 +175,6 @@ def test_no_record_is_scored_of_a_machine_that_they_hold(beginning):
 @pytest.mark.parametrize(
     ("options", "told"),
     [
-        (("--bandwidth", "8000"), "--bandwidth: transfer-rows have been read already"),
         (("--speed-error", "0.01"), "--speed-error: transfer-rows have been read already"),
         (("--estimator", "own_estimators:Guesser", "--input", "windows"), "of transfer-rows there are features only"),
         (("--first", "3"), "--first = 3: too few virtual bearings"),

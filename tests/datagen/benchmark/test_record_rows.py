@@ -110,6 +110,19 @@ def test_a_race_whose_ball_passes_fall_on_the_shaft_is_told(ball_diameter, hidde
     assert record_rows(shaking(int(4 * RATE)), geometry, Reading()).facts.in_shaft == hidden
 
 
+@pytest.mark.parametrize(
+    ("speed_rpm", "bands"),
+    [(0.99, 15), (1.01, 7), (1.99, 7), (2.01, 3), (3.99, 3), (4.01, 1)],
+)
+def test_bands_that_ball_passes_leave_no_room_for_are_not_counted(speed_rpm, bands):
+    """Each holds three and a half times BPFI, with 9 balls 5.415 a turn; the least of so many is an eighth, a quarter,
+    a half of what is looked at."""
+    eighth = 0.95 * RATE / 2.0 / 8.0
+    speed = speed_rpm * 60.0 * eighth / (3.5 * 5.4152)
+    facts = record_rows(shaking(int(2 * RATE)), labels(speed_rpm=speed), Reading()).facts
+    assert facts.bands == bands
+
+
 def test_over_the_angle_of_a_changing_shaft_nothing_falls_on_the_mains():
     time = np.arange(int(4 * RATE)) / RATE
     turning = Turning(2.0 * np.pi * (45.0 * time + 1.3 * time**2))

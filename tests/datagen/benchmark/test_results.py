@@ -20,6 +20,7 @@ OF_A_CORPUS = [
     "shocks_cut",
     "in_mains",
     "in_shaft",
+    "few_bands",
     "far_from_stated",
     "models",
 ]
@@ -27,9 +28,11 @@ OF_A_CORPUS = [
 
 def test_a_report_holds_plain_numbers_wherever_scores_are_and_parts_of_a_group_like_the_rest(made_scores):
     scores = CorpusScores(
-        "out/a", True, 1, {"none": 1}, {}, {}, {}, {}, {}, {}, 0, {"rule": made_scores(detection_auc=HALF)}
+        "out/a", True, 1, {"none": 1}, {}, {}, {}, {}, {}, {}, 0, 0, {"rule": made_scores(detection_auc=HALF)}
     )
-    said = Prediction(3, "x", "b", "none", "", 0, 0, 0, "", "inner", 1798.5, {"rule": ModelAnswer("none", 0.5, 1.0)})
+    said = Prediction(
+        3, "x", "b", "none", "", 0, 0, 0, "", "inner", 15, 1798.5, {"rule": ModelAnswer("none", 0.5, 1.0)}
+    )
     test = CorpusResults(scores, [said], [NoisyScores(-5.0, 2, scores)])
     results = Results("out/t", Options(), {"training_records": 7, "importances": {}}, [test], 1.5)
     found = json.loads(plain_json(results.to_dict()))
@@ -48,6 +51,7 @@ def test_a_report_holds_plain_numbers_wherever_scores_are_and_parts_of_a_group_l
         "shocks_cut": 0,
         "in_mains": "",
         "in_shaft": "inner",
+        "bands": 15,
         "found_speed_rpm": 1798.5,
     }
     assert held["predictions"] == [facts | counts | {"rule": {"location": "none", "score": 0.5, "alarm": 1.0}}]

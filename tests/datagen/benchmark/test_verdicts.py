@@ -156,8 +156,10 @@ def test_each_record_is_told_with_its_alarm_its_reason_and_its_glitches():
     rows = CorpusRows(
         rows.rows[:2],
         {
-            0: RecordFacts(in_mains=("outer",), in_shaft=("inner",), found_rpm=1798.51234, far_from_stated=True),
-            1: RecordFacts(glitches=4, shocks=2),
+            0: RecordFacts(
+                in_mains=("outer",), in_shaft=("inner",), bands=3, found_rpm=1798.51234, far_from_stated=True
+            ),
+            1: RecordFacts(glitches=4, shocks=2, bands=7),
             2: RecordFacts("too short", jumps=1),
         },
     )
@@ -170,12 +172,14 @@ def test_each_record_is_told_with_its_alarm_its_reason_and_its_glitches():
     assert summary.shocks_cut == {"records": 1, "shocks": 2}
     assert summary.in_mains == {"outer": 1, "inner": 0}
     assert summary.in_shaft == {"outer": 0, "inner": 1}
+    assert summary.few_bands == 1
     assert summary.far_from_stated == 1
     first, second, third = predictions = record_predictions(tested)
     assert (first.rejected, second.despiked, third.levelled, third.rejected) == ("", 4, 1, "too short")
     assert (first.found_speed_rpm, third.found_speed_rpm) == (1798.51, None)
     assert (first.in_mains, second.in_mains) == ("outer", "")
     assert (first.in_shaft, second.in_shaft) == ("inner", "")
+    assert [prediction.bands for prediction in predictions] == [3, 7, 0]
     assert first.models["rule"].alarm == RULE.threshold
     assert first.models["said"].alarm == pytest.approx(0.7)
     assert np.isnan(third.models["said"].alarm)
@@ -183,12 +187,12 @@ def test_each_record_is_told_with_its_alarm_its_reason_and_its_glitches():
     assert "\r" not in text
     table = text.splitlines()
     assert table[0].startswith(
-        "corpus,record,recording,bearing_id,truth,rejected,levelled,despiked,shocks_cut,in_mains,in_shaft,"
+        "corpus,record,recording,bearing_id,truth,rejected,levelled,despiked,shocks_cut,in_mains,in_shaft,bands,"
         "found_speed_rpm,rule_location,"
     )
     # Six digits; three probabilities of 0 are taken as 1e-6, so healthy keeps 0.2 / 1.000003.
     assert table[1].endswith(",outer,0.800001,0.7")
-    assert ",too short,1,0,0,,,,rejected," in table[3]
+    assert ",too short,1,0,0,,,0,,rejected," in table[3]
 
 
 def with_unjudged_records():
@@ -469,7 +473,9 @@ def test_doubt_rejects_what_is_less_likely_than_it_by_however_little():
 def test_an_answer_stands_beside_the_probability_and_the_alarm_that_made_it(location, score, message):
     where = {"none": 1.0 - score, "outer": score, "inner": 0.0}
     answers = {"forest": ModelAnswer(location, score, 0.73, where), "rule": ModelAnswer("inner", 30.0, 9.0)}
-    table = verdict_table([Prediction(0, "a", "b", "unknown", "", 0, 0, 0, "", "", None, answers)], ["forest", "rule"])
+    table = verdict_table(
+        [Prediction(0, "a", "b", "unknown", "", 0, 0, 0, "", "", 15, None, answers)], ["forest", "rule"]
+    )
     columns = {str(column.header): list(column.cells) for column in table.columns}
     assert (columns["forest"], columns["rule"]) == ([message], ["inner"])
     assert "a spall, and the alarm above which one is called" in str(table.caption)

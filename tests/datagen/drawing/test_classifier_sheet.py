@@ -37,7 +37,7 @@ def summary(made_scores, none, outer):
     if none and outer:
         scores = replace(scores, detection_auc=HALF)
     locations = {"none": none, "outer": outer, "inner": 0}
-    return CorpusScores("out/made", False, none + outer, locations, {}, {}, {}, {}, {}, {}, 0, {"rule": scores})
+    return CorpusScores("out/made", False, none + outer, locations, {}, {}, {}, {}, {}, {}, 0, 0, {"rule": scores})
 
 
 @pytest.fixture

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import asdict, fields, is_dataclass
 from typing import Any
 
@@ -74,6 +75,8 @@ def flat_row(record: ScoredRecord) -> dict[str, Any]:
         "candidates": answer.candidates,
         "candidates_deg": answer.candidates_deg,
         "candidates_mm": answer.candidates_mm,
+        "complement_deg": math.degrees(answer.complement),
+        "complement_mm": answer.complement_mm,
         "static_arc": record.static_arc,
         "envelope_arc": record.envelope_arc,
         "known_size_factor": answer.known_size_factor,

@@ -105,6 +105,18 @@ class Answer:
         """The candidates in degrees."""
         return tuple(math.degrees(arc) for arc in self.candidates)
 
+    @property
+    def complement(self) -> float:
+        """What the extent lacks of a ball spacing (rad), as candidates are apart: the spall's if an exit and the next
+        entry were taken for entry and exit. NaN if it is longer than that, or no longer candidate is given."""
+        spacing = min((arc - self.extent for arc in self.candidates if arc > self.extent), default=math.nan)
+        return spacing - self.extent if spacing > self.extent else math.nan
+
+    @property
+    def complement_mm(self) -> float:
+        """The same in mm."""
+        return self.complement * self.extent_mm / self.extent
+
 
 @dataclass(frozen=True)
 class ScoredRecord:

@@ -56,7 +56,8 @@ def estimates_table(records: list[ScoredRecord]) -> Table:
     table = Table(
         caption="In brackets 90 % intervals. Trust: 1 less the relative error to be expected of the time between the "
         "events.\nThat time tells a size only up to whole ball spacings: the longer candidates are in the files. Where "
-        "an exit and the\nnext entry were taken for entry and exit, the spall is what the size lacks of a ball spacing."
+        "an exit and the\nnext entry were taken for entry and exit, the spall is what the size lacks of a ball spacing, "
+        'which stands after\n"or" where it is shorter, and in the files.'
     )
     for name in ("record", "recording", "race", "extent, °", "extent, mm", "trust", "why there is no estimate"):
         table.add_column(name, justify="right" if name in ("record", "trust") else "left")
@@ -81,11 +82,11 @@ def _spall(record: ScoredRecord) -> tuple[str, str, str]:
     if not record.found:
         return "", "", ""
     answer = record.answer
-    return (
-        answer.race,
-        _with_interval(answer.extent_deg, *answer.extent_deg_interval),
-        _with_interval(answer.extent_mm, *answer.extent_mm_interval),
-    )
+    degrees = _with_interval(answer.extent_deg, *answer.extent_deg_interval)
+    mm = _with_interval(answer.extent_mm, *answer.extent_mm_interval)
+    if answer.complement < answer.extent:
+        return answer.race, f"{degrees} or {math.degrees(answer.complement):.3g}", f"{mm} or {answer.complement_mm:.3g}"
+    return answer.race, degrees, mm
 
 
 def _with_interval(value: float, low: float, high: float) -> str:

@@ -23,7 +23,8 @@ BEFORE_THE_EVENTS = [
     "extent_mm", "extent_spacing", "rate", "pass_period", "true_lag", "true_extent", "outcome", "reason", "method",
     "found_race", "trust", "lag", "lag_low", "lag_high", "lag_arc", "extent", "extent_low", "extent_high",
     "estimated_deg", "estimated_deg_low", "estimated_deg_high", "estimated_mm", "estimated_mm_low", "estimated_mm_high",
-    "candidates", "candidates_deg", "candidates_mm", "static_arc", "envelope_arc", "known_size_factor", "seconds",
+    "candidates", "candidates_deg", "candidates_mm", "complement_deg", "complement_mm", "static_arc", "envelope_arc",
+    "known_size_factor", "seconds",
 ]  # fmt: skip
 IN_JSON = [*BEFORE_THE_EVENTS, "event_times", "events_in_time", "events_in_arc", "known_truth"]
 COUNTS = [f"events_in_{kind}_{what}" for kind in ("time", "arc") for what in ("matched", "found", "true")]
@@ -69,6 +70,7 @@ def test_truth_and_what_was_answered_keep_their_own_names(scored: Callable[..., 
         assert row[f"estimated_mm{end}"] == mm
     assert (row["candidates"], row["candidates_mm"]) == ((0.25,), (17.0,))
     assert row["candidates_deg"] == pytest.approx((0.25 * 180.0 / math.pi,))
+    assert math.isnan(row["complement_mm"])  # the candidate is not longer
     assert (row["known_size_factor"], row["seconds"]) == (1.5, 18.0)
     assert (row["events_in_time"], row["events_in_arc"]) == (EventScores(1, 2, 3), EventScores(4, 5, 6))
     assert row["event_times"].shape == (2, 2)

@@ -5,9 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
+import pytest
 from rich.table import Table
 
 from datagen.sizing.aggregation import summarise
+from datagen.sizing.flat_rows import flat_row
 from datagen.sizing.known_sizes import KnownSize
 from datagen.sizing.scored_record import ScoredRecord
 from datagen.sizing.size_summary import StatedSizes
@@ -18,6 +20,24 @@ from labels.interval import Interval
 
 def columns(table: Table) -> dict[str, list[str]]:
     return {str(column.header): [str(cell) for cell in column.cells] for column in table.columns}
+
+
+def test_what_a_long_size_lacks_of_a_ball_spacing_stands_beside_it(scored: Callable[..., ScoredRecord]) -> None:
+    """Twelve balls are 30 degrees apart; a rad is 20 mm long."""
+    records = []
+    for degrees in (20.0, 10.0, 35.0):
+        extent = math.radians(degrees)
+        candidates = tuple(math.radians(degrees + 30.0 * more) for more in range(3))
+        records.append(scored(answer={"extent": extent, "extent_mm": 20.0 * extent, "candidates": candidates}))
+    assert [cell.split("] ")[-1] for cell in columns(estimates_table(records))["extent, °"]] == [
+        "or 10",
+        "10 [5.16, 6.88]",
+        "35 [5.16, 6.88]",
+    ]
+    assert columns(estimates_table(records))["extent, mm"][0] == "6.98 [1.8, 2.4] or 3.49"
+    rows = [flat_row(record) for record in records]
+    assert [row["complement_deg"] for row in rows] == pytest.approx([10.0, 20.0, math.nan], nan_ok=True)
+    assert rows[1]["complement_mm"] == pytest.approx(20.0 * math.radians(20.0))
 
 
 def test_an_estimate_stands_in_degrees_and_millimetres_with_its_intervals(scored: Callable[..., ScoredRecord]) -> None:

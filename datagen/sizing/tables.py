@@ -56,8 +56,8 @@ def estimates_table(records: list[ScoredRecord]) -> Table:
     table = Table(
         caption="In brackets 90 % intervals. Trust: 1 less the relative error to be expected of the time between the "
         "events.\nThat time tells a size only up to whole ball spacings: the longer candidates are in the files. Where "
-        "an exit and the\nnext entry were taken for entry and exit, the spall is what the size lacks of a ball spacing, "
-        'which stands after\n"or" where it is shorter, and in the files.'
+        "an exit and the\nnext entry were taken for entry and exit, the spall is what the size lacks of a ball "
+        'spacing, which\nstands after "or" where it is shorter, and in the files.'
     )
     for name in ("record", "recording", "race", "extent, °", "extent, mm", "trust", "why there is no estimate"):
         table.add_column(name, justify="right" if name in ("record", "trust") else "left")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, get_args
@@ -102,12 +103,22 @@ def _row(header: list[str], cells: list[str], note_columns: tuple[str, ...], pla
     if not files:
         raise BadInput("this cell is empty", place, FILE_COLUMN)
     notes: dict[str, Any] = {name: _plain(said.pop(name), decimal) for name in note_columns if name in said}
-    settings: dict[str, Any] = {name: cell if _is_text(name) else _plain(cell, decimal) for name, cell in said.items()}
+    settings = {name: _setting(name, cell, decimal) for name, cell in said.items()}
     try:
         checked = RecordingSettings.model_validate(settings | ({"notes": notes} if notes else {}))
     except ValidationError as error:
         raise bad_settings(error, RecordingSettings, place, "") from None
     return TableRow(place, files, checked.given())
+
+
+def _setting(name: str, cell: str, decimal: str) -> Any:
+    """What the cell of a setting says: a table in braces as in TOML, a number or a text."""
+    if cell.startswith("{"):
+        try:
+            return tomllib.loads(f"cell = {cell}")["cell"]
+        except tomllib.TOMLDecodeError:  # a text such as {stem}_DE
+            pass
+    return cell if _is_text(name) else _plain(cell, decimal)
 
 
 def _is_text(name: str) -> bool:

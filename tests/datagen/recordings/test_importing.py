@@ -341,6 +341,20 @@ def test_overrides_go_before_tables_and_tables_before_the_rest(bring: Bring, mat
     assert json.loads(corpus.waveform(2, "provenance"))["notes"] == {"odd": True}
 
 
+def test_a_label_table_may_hold_the_numbers_of_every_bearing(bring: Bring, mat: Mat, tmp_path: Path) -> None:
+    for name in ("a.mat", "b.mat"):
+        mat(name, slow=np.full((50, 1), 600.0))
+    (tmp_path / "t.csv").write_text(
+        "file,bearing,speed_rpm,y\n"
+        'a.mat,"{balls = 9, ball_diameter_mm = 7.94, pitch_diameter_mm = 39.04}",{variable = "slow"},sig\n'
+        "b.mat,skf_6205,1797,sig\n"
+    )
+    labels = bring('[[recording]]\nname = "all"\ntable = "t.csv"\nunit = "g"\nrate_hz = 1000\n').labels
+    assert labels["balls"].tolist() == [9, 9]
+    assert labels["ball_diameter"][0] == pytest.approx(7.94e-3)
+    assert labels["speed_rpm"].tolist() == [600.0, 1797.0]
+
+
 def test_an_override_of_one_axis_leaves_the_other(bring: Bring, mat: Mat) -> None:
     for name in ("a.mat", "b.mat"):
         mat(name, other=noise(seed=5)[:, None], third=noise(seed=6)[:, None])

@@ -191,7 +191,7 @@ LABELS: tuple[Label, ...] = (
         "record",
         "Lower and upper edge of the band of the stored envelope. Of a simulated record whose recipe states none: 5 % "
         "to either side of the mode along y that strains the resonator's spring most, of the healthy bearing at the "
-        "rated load.",
+        "rated load: undamped, of all six degrees of freedom, without imperfections and with the cage at angle 0.",
         components=BAND_EDGES,
     ),
     _text("model", "run", 'Model that made the signal; "measured" if a real machine did.'),
@@ -208,7 +208,8 @@ LABELS: tuple[Label, ...] = (
         "1",
         "run",
         "Estimated RMS error of the clean acceleration over its RMS; where errors below the noise are allowed it is a "
-        "bound, which a quiet signal is far below.",
+        "bound, which a quiet signal is far below. Against this program's own paths and rounding: where contacts "
+        "multiply errors, as `validity` then says, other programs' rounding leads elsewhere.",
         "the error was not estimated",
     ),
     _number(

@@ -9,6 +9,11 @@ from labels.schema import BAND_EDGES, LAYERS, LOCATIONS
 from physics.words import STIFFNESS_COMPONENTS
 
 AXES = ("x", "y")
+NO_DIP = (
+    "the ball of the simulated motion does not touch both races all the way from entry to exit, whatever its "
+    "quasi-static load (as where it has a release_time), the pass is cut by an end of the record, or the load does not "
+    "fall from above half and rise again"
+)
 
 
 @dataclass(frozen=True)
@@ -85,7 +90,9 @@ SIGNALS: tuple[Variable, ...] = (
         "float32",
         "m s-2",
         "envelope of the acceleration",
-        "Magnitude of the analytic signal of the y axis in the record's envelope_band.",
+        "Magnitude of the analytic signal of the acceleration along y in the record's envelope_band: its Fourier "
+        "components in the band, edges included, are kept and all others dropped. The record counts as periodic, which "
+        "touches the first and last 1/(width of the band) seconds.",
         stored="simulated",
     ),
     Variable(
@@ -261,8 +268,7 @@ PASSES: tuple[Variable, ...] = (
         "time of the falling load",
         "First fall of the ball's quasi-static load through half of what it would be without spalls, seen in 400 equal "
         "steps from entry to exit: over a rough floor a shorter dip may lie before.",
-        missing="the ball does not touch both races from entry to exit, the pass is cut by an end of the record, or "
-        "the load does not fall from above half and rise again",
+        missing=NO_DIP,
     ),
     _simulated(
         "rise_time",
@@ -271,8 +277,7 @@ PASSES: tuple[Variable, ...] = (
         "s",
         "time of the rising load",
         "Last rise of the ball's quasi-static load through half of what it would be without spalls, seen likewise.",
-        missing="the ball does not touch both races from entry to exit, the pass is cut by an end of the record, or "
-        "the load does not fall from above half and rise again",
+        missing=NO_DIP,
     ),
 )
 

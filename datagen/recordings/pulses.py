@@ -54,18 +54,27 @@ def mended(times: Array, pulses_per_rev: float) -> tuple[Array, int]:
     if times.size <= NEIGHBOURS:
         return times, 0
     single = _without_doubles(times)
-    interval = np.diff(single)
-    ratio = interval / median_filter(interval, NEIGHBOURS, mode="mirror")
-    counts = np.maximum(np.round(ratio), 1.0).astype(np.int64)
-    counts[(np.abs(ratio - counts) > NEAR_WHOLE) & (ratio < LONG)] = 1
-    wrong = times.size - single.size + int((counts > 1).sum())
-    numbers = np.concatenate([[0], np.cumsum(counts)])
+    steps = _steps(single)
+    numbers = np.concatenate([[0], np.cumsum(steps)])
+    doubles, gaps = times.size - single.size, steps > 1
+    wrong = doubles + int(gaps.sum())
+    if wrong == 0:
+        return times, 0
     frequent = wrong > MOST_A_TURN * times.size / pulses_per_rev
-    lacking = frequent and _come_again(numbers[:-1][counts > 1], pulses_per_rev)
-    if wrong == 0 or (frequent and not lacking and _come_again(_odd(times), pulses_per_rev)):
+    wheel_lacks_teeth = frequent and _come_again(numbers[:-1][gaps], pulses_per_rev)
+    if frequent and not wheel_lacks_teeth and _come_again(_odd(times), pulses_per_rev):  # the wheel is irregular
         return times, 0
     whole = np.interp(np.arange(numbers[-1] + 1), numbers, single)
-    return whole, times.size - single.size + (0 if lacking else int((counts - 1).sum()))
+    return whole, doubles + (0 if wheel_lacks_teeth else int((steps - 1).sum()))
+
+
+def _steps(times: Array) -> NDArray[np.int64]:
+    """How many pulses on (N - 1,) each of those at `times` (N,) the next one is: 1, or more where some are missing."""
+    interval = np.diff(times)
+    ratio = interval / median_filter(interval, NEIGHBOURS, mode="mirror")
+    steps = np.maximum(np.round(ratio), 1.0).astype(np.int64)
+    steps[(np.abs(ratio - steps) > NEAR_WHOLE) & (ratio < LONG)] = 1
+    return steps
 
 
 def _odd(times: Array) -> NDArray[np.int64]:

@@ -172,31 +172,38 @@ class Source:
         said = self.setting(name)
         if not isinstance(said, FromVariable):
             return None if said is None else float(said)
-        found = choose(self.arrays, said.variable, self.path, name)
-        if found.dtype.kind not in "iuf" or not found.size:
-            allowed = TIMES if said.times else ""
-            raise BadInput("is not a finite number", str(self.path), name, said.variable, allowed)
-        bad = np.flatnonzero(~np.isfinite(found))
-        if bad.size:
-            one = MOST_OF_THEM if bad.size < found.size / 2 else ONE_OF_THEM
-            allowed = TIMES if said.times else one if bad.size < found.size else ""
-            raise self._not_finite(bad, found.size, said.variable, name, allowed)
-        if said.times:
-            with np.errstate(over="ignore"):
-                times = found.astype(np.float64) * said.factor
-            value = rate_of(times, self.path, said.variable)
-        elif name in CONSTANT and np.ptp(found) > 0.0:
-            also = ", or the times of the samples with times = true" if name == "rate_hz" else ""
-            raise self._several(found, said.variable, name, "a variable that holds one number, or one of it" + also)
-        else:
-            self._require_one_course(found, said.variable, name)
-            value = self._mean(_within(found, span), said.variable, name) * said.factor
+        value = self._value(self._finite_numbers(said, name), said, name, span)
         if not in_range(name, value):
             problem = f"from the variable {said.variable}" + (", whose times are read as s" if said.times else "")
             remark = FACTOR if said.times else ANOTHER_UNIT if said.factor == 1.0 else ""
             allowed = "; ".join(filter(None, [RANGES[name].allowed(), remark]))
             raise BadInput(problem, str(self.path), name, value, allowed)
         return value
+
+    def _finite_numbers(self, said: FromVariable, field: str) -> NDArray[Any]:
+        """The numbers of a variable, at least one; BadInput unless all are finite."""
+        found = choose(self.arrays, said.variable, self.path, field)
+        if found.dtype.kind not in "iuf" or not found.size:
+            allowed = TIMES if said.times else ""
+            raise BadInput("is not a finite number", str(self.path), field, said.variable, allowed)
+        bad = np.flatnonzero(~np.isfinite(found))
+        if bad.size:
+            one = MOST_OF_THEM if bad.size < found.size / 2 else ONE_OF_THEM
+            allowed = TIMES if said.times else one if bad.size < found.size else ""
+            raise self._not_finite(bad, found.size, said.variable, field, allowed)
+        return found
+
+    def _value(self, found: NDArray[Any], said: FromVariable, field: str, span: Span) -> float:
+        """The one number that the numbers `found` in a variable stand for."""
+        if said.times:
+            with np.errstate(over="ignore"):
+                times = found.astype(np.float64) * said.factor
+            return rate_of(times, self.path, said.variable)
+        if field in CONSTANT and np.ptp(found) > 0.0:
+            also = ", or the times of the samples with times = true" if field == "rate_hz" else ""
+            raise self._several(found, said.variable, field, "a variable that holds one number, or one of it" + also)
+        self._require_one_course(found, said.variable, field)
+        return self._mean(_within(found, span), said.variable, field) * said.factor
 
     def _mean(self, found: NDArray[Any], wish: str, field: str) -> float:
         zeros = found.size - np.count_nonzero(found)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, get_args, get_origin
 
@@ -39,35 +40,66 @@ EXPECTED = {
 }
 
 
+@dataclass(frozen=True)
+class _Error:
+    """One error as pydantic tells it: its `kind`, the `steps` that lead to it, the value that was `given` there, and
+    more in `context` and `sentence`."""
+
+    kind: str
+    steps: Location
+    given: Any
+    context: dict[str, Any]
+    sentence: str
+
+    @property
+    def unknown_key(self) -> bool:
+        """Whether the last step is a key that nobody knows, whatever it looks like."""
+        return self.kind == "extra_forbidden"
+
+    @property
+    def place(self) -> Location:
+        """Where the setting is, without the names of the kinds of value that pydantic tried there."""
+        steps, unknown = (self.steps[:-1], self.steps[-1:]) if self.unknown_key else (self.steps, ())
+        return (*(step for step in steps if isinstance(step, int) or not _is_kind(step)), *unknown)
+
+    @property
+    def field(self) -> tuple[str, ...]:
+        """The setting in the table at that place which a rule of the whole table points at; none if it is the place."""
+        name = self.context.get("field", "")
+        return tuple(name.split(".")) if name else ()
+
+    @property
+    def of_a_kind(self) -> bool:
+        """Whether it is of one kind of value among several that pydantic tried at the place."""
+        return not self.unknown_key and any(map(_is_kind, self.steps[-1:]))
+
+    @property
+    def of_a_scalar(self) -> bool:
+        """Whether a table was tried as a single value, which says less than what is wrong in the table."""
+        return isinstance(self.given, dict) and any(step in SCALARS for step in self.steps[-1:])
+
+    def follows_from(self, errors: list[_Error]) -> bool:
+        """True of a list that counts as too short because what stands in it is wrong, by others of the `errors`."""
+        size = len(self.steps)
+        return self.kind == "too_short" and any(more.steps[:size] == self.steps != more.steps for more in errors)
+
+
 def bad_settings(invalid: ValidationError, model: type[BaseModel], path: Path | str, text: str) -> BadInput:
     """BadInput naming file, line, setting, value and what is allowed of the first error (misspelt keys come first)."""
-    errors: list[dict[str, Any]] = [dict(error) for error in invalid.errors()]
-    causes = [error for error in errors if not _follows(error, errors)]
-    first = min(causes, key=lambda error: (error["type"] != "extra_forbidden", _is_other_kind(error)))
-    context = first.get("ctx", {})
-    field = tuple(context.get("field", "").split(".")) if context.get("field") else ()
-    location = _place(first) + field
+    errors = [
+        _Error(told["type"], told["loc"], told["input"], told.get("ctx", {}), told["msg"]) for told in invalid.errors()
+    ]
+    causes = [error for error in errors if not error.follows_from(errors)]
+    first = min(causes, key=lambda error: (not error.unknown_key, error.of_a_scalar))
+    location = first.place + first.field
     return BadInput(
         _problem(first, location, model),
         at_line(path, line_of(text, location)),
         dotted(location),
-        _value(first, location, field),
-        _allowed(first, [error for error in errors if _place(error) == _place(first)])
-        + (_range_at(location, model) if first["type"] in NO_NUMBER else ""),
+        _value(first, location),
+        _allowed(first, [error for error in errors if error.place == first.place])
+        + (_range_at(location, model) if first.kind in NO_NUMBER else ""),
     )
-
-
-def _place(error: dict[str, Any]) -> Location:
-    """Where the setting is, without the names of the kinds of value that pydantic tried there."""
-    steps, unknown = error["loc"], ()
-    if error["type"] == "extra_forbidden":  # the last step is what somebody wrote, whatever it looks like
-        steps, unknown = steps[:-1], steps[-1:]
-    return (*(step for step in steps if isinstance(step, int) or not _is_kind(step)), *unknown)
-
-
-def _is_of_kind(error: dict[str, Any]) -> bool:
-    """Whether the error is of one kind of value among several that pydantic tried at the place."""
-    return error["type"] != "extra_forbidden" and any(map(_is_kind, error["loc"][-1:]))
 
 
 def _is_kind(step: str | int) -> bool:
@@ -81,30 +113,19 @@ def _tables(model: type[BaseModel]) -> Iterator[str]:
         yield from _tables(kind)
 
 
-def _is_other_kind(error: dict[str, Any]) -> bool:
-    """True if a table was tried as a single value, which says less than what is wrong in the table."""
-    return isinstance(error["input"], dict) and any(step in SCALARS for step in error["loc"][-1:])
-
-
-def _follows(error: dict[str, Any], errors: list[dict[str, Any]]) -> bool:
-    """True of a list that counts as too short because what stands in it is wrong."""
-    size = len(error["loc"])
-    return error["type"] == "too_short" and any(more["loc"][:size] == error["loc"] != more["loc"] for more in errors)
-
-
-def _allowed(first: dict[str, Any], alike: list[dict[str, Any]]) -> str:
+def _allowed(first: _Error, alike: list[_Error]) -> str:
     """What is allowed; where several kinds of value were tried at the place, all of them."""
-    kinds = alike if _is_of_kind(first) else [first]
-    contexts = [(error["type"], error.get("ctx", {})) for error in kinds]
-    words = [context.get("allowed") or EXPECTED.get(kind, "").format(**context) for kind, context in contexts]
+    words = [
+        error.context.get("allowed") or EXPECTED.get(error.kind, "").format(**error.context)
+        for error in (alike if first.of_a_kind else [first])
+    ]
     return " or ".join(dict.fromkeys(word for word in words if word))
 
 
-def _problem(first: dict[str, Any], location: Location, model: type[BaseModel]) -> str:
-    kind = first["type"]
-    if kind == "missing":
+def _problem(first: _Error, location: Location, model: type[BaseModel]) -> str:
+    if first.kind == "missing":
         return "one more value is needed" if isinstance(location[-1], int) else "this setting is missing"
-    if kind == "extra_forbidden":
+    if first.unknown_key:
         homes = _homes(str(location[-1]), model)
         if homes:
             return f"unknown key here; it belongs {' or '.join(homes)}"
@@ -112,28 +133,28 @@ def _problem(first: dict[str, Any], location: Location, model: type[BaseModel]) 
         hint = suggestion(str(location[-1]), known)
         listed = f" (known here: {', '.join(known)})" if not hint or len(known) <= MOST_LISTED else ""
         return f"unknown key{hint}{listed}"
-    misplaced = _settings_beside(first, location, model) if kind == "distribution" else []
+    misplaced = _settings_beside(first, location, model) if first.kind == "distribution" else []
     if misplaced:
         place = dotted((*location[:-1], misplaced[0]))
         return f"{', '.join(misplaced)}: this is a separate setting; write it beside this one as {place}"
-    problem = first.get("ctx", {}).get("problem")
-    return str(problem) if problem else "" if kind in EXPECTED or kind == "allowed" else str(first["msg"])
+    problem = first.context.get("problem")
+    return str(problem) if problem else "" if first.kind in EXPECTED or first.kind == "allowed" else first.sentence
 
 
-def _value(first: dict[str, Any], location: Location, field: tuple[str, ...]) -> object:
-    if first["type"] in ("missing", "extra_forbidden"):
+def _value(first: _Error, location: Location) -> object:
+    if first.kind == "missing" or first.unknown_key:
         return None
-    given = first["input"]
-    if not field:
+    given = first.given
+    if not first.field:
         return None if isinstance(given, BaseModel) or location == ("part",) else given
-    for key in field:
+    for key in first.field:
         given = given.get(key) if isinstance(given, dict) else None
-    return None if field == ("part",) else given
+    return None if first.field == ("part",) else given
 
 
-def _settings_beside(first: dict[str, Any], location: Location, model: type[BaseModel]) -> list[str]:
+def _settings_beside(first: _Error, location: Location, model: type[BaseModel]) -> list[str]:
     """Keys of a value that was to be a distribution, if all of them are names of settings beside it."""
-    keys = list(map(str, first["input"])) if isinstance(first["input"], dict) else []
+    keys = list(map(str, first.given)) if isinstance(first.given, dict) else []
     return keys if set(keys) <= set(_keys_beside(location, model)) else []
 
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from labels.dead_sensor import live_axis
 from labels.spall_size.estimation.calibration import Calibration, Judgement
-from labels.spall_size.estimation.gathering import gather_evidence
+from labels.spall_size.estimation.gathering import hear
 from labels.spall_size.estimation.measurement import Measurement, leading_pairs, measure
 from labels.spall_size.events.evidence import Evidence
 from labels.spall_size.signal.alignment import LEAST_WEIGHT
@@ -47,9 +47,6 @@ class SizeEstimator:
         InvalidParameter unless the rate is finite and above 0.
         """
         require_positive("rate", rate, "Hz")
-        if not situation.polarity_known:
-            known = replace(situation, polarity_known=True)
-            return max((self.estimate(sign * acceleration, rate, known) for sign in (1.0, -1.0)), key=_trust)
         signal, method = live_axis(acceleration), _method(situation)
         if signal is None:
             return SizeEstimate(SizeOutcome.NO_SIGNAL, method)
@@ -58,10 +55,12 @@ class SizeEstimator:
             return SizeEstimate(SizeOutcome.TOO_SHORT, method)
         if shortest < FEWEST_SAMPLES_A_PASS:
             return SizeEstimate(SizeOutcome.TOO_COARSE, method)
-        evidence = gather_evidence(np.asarray(signal, dtype=np.float64), rate, situation.pass_periods())
-        if evidence is None:
+        heard = hear(np.asarray(signal, dtype=np.float64), rate, situation.pass_periods())
+        signs = () if heard is None else (1.0,) if situation.polarity_known else (1.0, -1.0)
+        found = [evidence for sign in signs if heard and (evidence := heard.evidence(sign)) is not None]
+        if not found:
             return SizeEstimate(SizeOutcome.NO_PASSES, method)
-        return self.judge(evidence, situation)
+        return max((self.judge(evidence, situation) for evidence in found), key=_trust)
 
     def judge(self, evidence: Evidence, situation: Situation) -> SizeEstimate:
         """Size of the spall that gave `evidence`."""

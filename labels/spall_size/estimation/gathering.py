@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -10,16 +11,48 @@ from labels.spall_size.columns.table import pair_rows
 from labels.spall_size.events.candidates import candidate_places
 from labels.spall_size.events.evidence import Evidence
 from labels.spall_size.events.pairs import Pairs, RecordFacts, all_pairs
-from labels.spall_size.signal.alignment import aligned
+from labels.spall_size.signal.alignment import Alignment, aligned
 from labels.spall_size.signal.mean_pass import mean_pass
 from labels.spall_size.signal.noise_floor import log_noise_share
-from labels.spall_size.signal.pass_track import track_passes
-from labels.spall_size.signal.prewhitening import prewhitened
+from labels.spall_size.signal.pass_track import PassTrack, track_passes
+from labels.spall_size.signal.prewhitening import Prewhitened, prewhitened
 from physics.arrays import Array
 
 
-def gather_evidence(signal: Array, rate: float, pass_period: dict[str, float]) -> Evidence | None:
-    """Evidence of `signal` (T,) for the race whose `pass_period` (s) shows most clearly; None without passes."""
+@dataclass(frozen=True)
+class Heard:
+    """What is heard of a `signal` (T,) whichever way its sensor looks: the signal prewhitened, the `track` of the
+    passes on the `race` that shows most clearly, these passes lined up, and `facts`."""
+
+    signal: Array
+    rate: float
+    white: Prewhitened
+    race: str
+    track: PassTrack
+    alignment: Alignment
+    facts: RecordFacts
+
+    def evidence(self, sign: float = 1.0) -> Evidence | None:
+        """The evidence of the signal times its `sign`, 1 or -1; None without two places that may be events."""
+        mean = mean_pass(sign * self.signal, sign * self.white.residual, self.alignment, self.track.period * self.rate)
+        places = candidate_places(mean)
+        if places.size < 2:
+            return None
+        view = all_pairs(mean, places, self.facts)
+        return Evidence(
+            race=self.race,
+            rate=self.rate,
+            deviation=float(np.std(self.signal)),
+            unit=self.white.unit,
+            track=self.track,
+            alignment=self.alignment,
+            mean=mean,
+            pairs=Pairs(view.entry, view.exit, view.lag, pair_rows(view)),
+        )
+
+
+def hear(signal: Array, rate: float, pass_period: dict[str, float]) -> Heard | None:
+    """What is heard of `signal` (T,) of the race whose `pass_period` (s) shows most clearly; None without passes."""
     white = prewhitened(signal)
     energy = white.residual**2
     tracks = {race: track_passes(energy, rate, period) for race, period in pass_period.items()}
@@ -30,10 +63,6 @@ def gather_evidence(signal: Array, rate: float, pass_period: dict[str, float]) -
     alignment = aligned(energy, rate, found[race])
     if alignment is None:
         return None
-    mean = mean_pass(signal, white.residual, alignment, found[race].period * rate)
-    places = candidate_places(mean)
-    if places.size < 2:
-        return None
     facts = RecordFacts(
         score=found[race].score,
         inner=race == "inner",
@@ -41,18 +70,14 @@ def gather_evidence(signal: Array, rate: float, pass_period: dict[str, float]) -
         predictability=predictability(signal),
         noise=log_noise_share(signal),
     )
-    view = all_pairs(mean, places, facts)
-    pairs = Pairs(view.entry, view.exit, view.lag, pair_rows(view))
-    return Evidence(
-        race=race,
-        rate=rate,
-        deviation=float(np.std(signal)),
-        unit=white.unit,
-        track=found[race],
-        alignment=alignment,
-        mean=mean,
-        pairs=pairs,
-    )
+    return Heard(signal, rate, white, race, found[race], alignment, facts)
+
+
+def gather_evidence(signal: Array, rate: float, pass_period: dict[str, float]) -> Evidence | None:
+    """Evidence of `signal` (T,) for the race whose `pass_period` (s) shows most clearly; None without passes or
+    events."""
+    heard = hear(signal, rate, pass_period)
+    return None if heard is None else heard.evidence()
 
 
 def peakedness(energy: Array) -> float:

@@ -9,7 +9,7 @@ from scipy.signal import lfilter
 
 from labels.spall_size.columns.event_shapes import event_shapes
 from labels.spall_size.columns.table import PAIR_COLUMNS
-from labels.spall_size.estimation.gathering import gather_evidence, peakedness, predictability
+from labels.spall_size.estimation.gathering import gather_evidence, hear, peakedness, predictability
 from labels.spall_size.events.candidates import candidate_places
 from labels.spall_size.signal.alignment import Alignment, aligned
 from labels.spall_size.signal.mean_pass import Channel, MeanPass, mean_pass
@@ -333,6 +333,10 @@ def test_a_signal_upside_down_turns_sway_and_displacement_and_nothing_else(pulse
     turned = ("sway", "give", "wave_sign")
     same = [k for k, name in enumerate(PAIR_COLUMNS) if not any(word in name for word in turned)]
     assert np.allclose(one.pairs.features[:, same], other.pairs.features[:, same], atol=1e-6)
+    # What was heard once serves both.
+    turned_over = hear(train.signal, RATE, {"outer": PERIOD}).evidence(-1.0)
+    assert np.array_equal(turned_over.pairs.features, other.pairs.features)
+    assert np.array_equal(turned_over.mean.give, other.mean.give)
 
 
 def test_the_displacement_of_a_sine_is_the_sine_over_its_frequency_squared():

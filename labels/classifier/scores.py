@@ -71,14 +71,15 @@ def bootstrap(
     groups: Names | None = None,
     draws: int = DRAWS,
     limits: tuple[float, float] = (0.0, 1.0),
+    unseen: bool = True,
 ) -> Interval:
     """`score` of the columns (N,) of records, with its 95 % interval from a bootstrap over records.
 
     Records are drawn anew within each stratum of `strata` (N,). Rows of one group of `groups` (N,) are drawn together
     and belong to the stratum of the first of them. A stratum whose draws all give the same score seems certain, though
     it may have one record: it adds what its number of groups allows within the `limits` of the score, as if it were
-    independent of the draws [MOVER: Zou & Donner 2008, Stat. Med. 27]. The ends are NaN without records, and if no draw
-    gives a score.
+    independent of the draws [MOVER: Zou & Donner 2008, Stat. Med. 27]; without `unseen`, only where all strata are so.
+    The ends are NaN without records, and if no draw gives a score.
     """
     columns = tuple(np.asarray(column) for column in columns)
     if columns[0].size == 0:
@@ -89,7 +90,7 @@ def bootstrap(
     if not np.isfinite(drawn).any():
         return found
     same = np.ptp(drawn[np.isfinite(drawn)]) < SAME
-    alike = [stratum for stratum in members if same or _is_certain(score, columns, stratum)]
+    alike = [stratum for stratum in members if same or (unseen and _is_certain(score, columns, stratum))]
     if not alike:
         return found
     share = unseen_share([len(stratum) for stratum in alike]) * len(alike) / len(members)
@@ -112,12 +113,17 @@ def paired_difference(
     for both.
 
     `said` and `rival` (N,) are two answers to the same `truth` (N,); `strata` and `groups` (N,) as in `bootstrap`.
+    Classes in which both score alike add nothing if others differ: few records of one class must not hide that an
+    answer is worse in another.
     """
 
     def difference(truth: Names, said: Names, rival: Names) -> float:
         return score(truth, said) - score(truth, rival)
 
-    return bootstrap(difference, truth, said, rival, strata=strata, groups=groups, draws=draws, limits=(-1.0, 1.0))
+    limits = (-1.0, 1.0)
+    return bootstrap(
+        difference, truth, said, rival, strata=strata, groups=groups, draws=draws, limits=limits, unseen=False
+    )
 
 
 def area_interval(

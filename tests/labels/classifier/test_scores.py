@@ -101,6 +101,14 @@ def test_a_class_with_records_of_unlike_scores_adds_no_more_than_its_draws():
     assert found.high - found.low == pytest.approx(2 * 1.96 * spread, rel=0.1)
 
 
+def test_few_records_of_one_class_do_not_hide_that_an_answer_is_worse_in_another():
+    truth = np.array(["a"] * 60 + ["b"] * 3)
+    said = np.array(["a"] * 40 + ["c"] * 20 + ["b"] * 3)
+    found = paired_difference(balanced_accuracy, truth, said, truth, strata=truth)
+    assert found.value == pytest.approx(-1 / 6)
+    assert found.low < found.value < found.high < 0.0
+
+
 def test_a_paired_difference_of_equals_is_zero_as_far_as_their_number_says():
     truth = np.array(["a", "b"] * 20)
     said = np.array(["a", "a"] * 20)

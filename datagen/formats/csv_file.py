@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Callable, Container, Iterator
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -91,29 +92,49 @@ def _clean_table(path: Path, layout: CsvLayout) -> Columns | None:
     if len(rows) <= head:
         return None
     line, cells = rows[head]
-    last = len(cells) - 1
-    is_empty = bool(last) and not cells[last].strip()
-    gaps = _gaps(rows[head:], last if is_empty else len(cells))
-    words = _columns_of_words(cells[:last] if is_empty else cells, layout, gaps)
-    if words:
+    shape = _shape(rows[head:], layout)
+    if shape.words:
         refuse_split_numbers(path, line, cells, layout)
-    converters: dict[int | str, Callable[[str], float]] = dict.fromkeys(words, _no_number)
-    converters |= dict.fromkeys(gaps, _number_or_nothing)
-    if is_empty:
-        converters[last] = _nothing
-    table = _loaded(path, layout, rows[head - 1][0] if head else layout.skip_lines, converters)
+    table = _loaded(path, layout, rows[head - 1][0] if head else layout.skip_lines, shape.converters())
     if table is None or (table.shape[1] == 1 and _has_gaps(path, layout, line)):
         return None
-    names, width = _without_end(_names(path, rows[0], layout, table.shape[1]), table.shape[1], is_empty)
-    numbers = [column for column in range(table.shape[1]) if column not in converters]
+    names, width = _without_end(_names(path, rows[0], layout, table.shape[1]), table.shape[1], shape.ends_empty)
+    numbers = [column for column in range(table.shape[1]) if column not in shape.converters()]
     if len(names) != width or not numbers or not np.isfinite(table[:, numbers]).all():
         return None
     table = table[:, :width]
-    first = dict.fromkeys(words + [last] * is_empty, (line, cells)) | gaps
+    first = dict.fromkeys(shape.words + [shape.last] * shape.ends_empty, (line, cells)) | shape.gaps
     odd = {names[column]: (where, row[column]) for column, (where, row) in first.items() if column < width}
     worded = {name: cell for name, cell in odd.items() if not _is_empty(cell[1])}
     columns = dict(zip(names, np.ascontiguousarray(table.T), strict=True))
     return Columns(columns, odd, worded, headless_hint(names, layout))
+
+
+@dataclass(frozen=True)
+class _Shape:
+    """What the first rows tell of a table's columns, up to the `last`: which hold `words`, which have `gaps`, with the
+    first row that has one, and whether the table `ends_empty` in the last, as where a delimiter ends each row."""
+
+    last: int
+    words: list[int]
+    gaps: dict[int, Row]
+    ends_empty: bool
+
+    def converters(self) -> dict[int | str, Callable[[str], float]]:
+        """How the cells of each column that is not made of numbers alone are read."""
+        found: dict[int | str, Callable[[str], float]] = dict.fromkeys(self.words, _no_number)
+        found |= dict.fromkeys(self.gaps, _number_or_nothing)
+        return found | ({self.last: _nothing} if self.ends_empty else {})
+
+
+def _shape(rows: list[Row], layout: CsvLayout) -> _Shape:
+    """The shape of a table that begins with these `rows`, at least one."""
+    cells = rows[0][1]
+    last = len(cells) - 1
+    ends_empty = bool(last) and not cells[last].strip()
+    counted = cells[:last] if ends_empty else cells
+    gaps = _gaps(rows, len(counted))
+    return _Shape(last, _columns_of_words(counted, layout, gaps), gaps, ends_empty)
 
 
 def _loaded(

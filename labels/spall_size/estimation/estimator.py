@@ -56,11 +56,11 @@ class SizeEstimator:
         if shortest < FEWEST_SAMPLES_A_PASS:
             return SizeEstimate(SizeOutcome.TOO_COARSE, method)
         heard = hear(np.asarray(signal, dtype=np.float64), rate, situation.pass_periods())
-        signs = () if heard is None else (1.0,) if situation.polarity_known else (1.0, -1.0)
-        found = [evidence for sign in signs if heard and (evidence := heard.evidence(sign)) is not None]
-        if not found:
+        if heard is None:
             return SizeEstimate(SizeOutcome.NO_PASSES, method)
-        return max((self.judge(evidence, situation) for evidence in found), key=_trust)
+        found = map(heard.evidence, (1.0,) if situation.polarity_known else (1.0, -1.0))
+        judged = [self.judge(evidence, situation) for evidence in found if evidence is not None]
+        return max(judged, key=_trust) if judged else SizeEstimate(SizeOutcome.NO_PASSES, method)
 
     def judge(self, evidence: Evidence, situation: Situation) -> SizeEstimate:
         """Size of the spall that gave `evidence`."""

@@ -48,7 +48,7 @@ def write_report(folder: str | Path, out: str | Path | None = None) -> Report:
         raise BadInput("this corpus holds no records yet", str(folder))
     contents = _contents(folder, facts, out)
     write_results(out, contents)
-    for picture in filter(OF_A_RECORD.fullmatch, map(str, os.listdir(out))):
+    for picture in filter(OF_A_RECORD.fullmatch, os.listdir(out)):
         if picture not in contents:  # of an earlier report
             (out / picture).unlink()
     return Report(str(out), tuple(contents), facts, unstated(facts))

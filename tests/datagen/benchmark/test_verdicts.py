@@ -102,6 +102,31 @@ def test_ten_draws_of_the_same_noise_tell_no_more_than_one():
     assert widths[1] > 0.8 * widths[0] > 0.1
 
 
+def test_neither_do_healthy_records_drawn_ten_times():
+    locations = ["outer", "inner", "none"] * 8
+    probability = np.random.default_rng(2).dirichlet([2.0, 2.0, 2.0, 0.5, 0.5], len(locations))
+    one = judged(locations, probability)
+    once, pooled = (summarise(found).models["said"] for found in (one, pool([one] * 10)))
+    for name in ("faults_balanced_accuracy", "race_accuracy", "location_balanced_accuracy", "detection_auc"):
+        assert astuple(getattr(pooled, name)) == pytest.approx(astuple(getattr(once, name))), name
+    for found, expected in (
+        (pooled.calibration.calibration_error, once.calibration.calibration_error),
+        (pooled.condition.condition_balanced_accuracy, once.condition.condition_balanced_accuracy),
+        (pooled.minus_rule.detection_auc, once.minus_rule.detection_auc),
+    ):
+        assert astuple(found)[1:] == pytest.approx(astuple(expected)[1:])
+
+
+def test_races_all_of_whose_records_are_right_are_bounded_race_by_race():
+    probability = np.zeros((10, 5))
+    probability[:8, 1] = probability[8:, 2] = 1.0
+    found = summarise(judged(["outer"] * 8 + ["inner"] * 2, probability)).models["said"].faults_balanced_accuracy
+    assert (found.value, found.high) == (1.0, 1.0)
+    # Least mean of the shares c·8 and c·2 that ten right answers still have once in forty: (c·8)^8 (c·2)^2 = 0.025.
+    share = (0.025 / (8.0**8 * 2.0**2)) ** 0.1
+    assert found.low == pytest.approx(5.0 * share)
+
+
 def test_pooled_draws_keep_what_each_draw_says_of_every_record():
     one = judged(["none", "outer"], np.array([[0.9, 0.1, 0, 0, 0], [0.2, 0.8, 0, 0, 0]]))
     other = replace(one, facts=(RecordFacts(in_mains=("inner",), glitches=3), RecordFacts(in_mains=("outer",))))
@@ -159,7 +184,7 @@ def test_each_record_is_told_with_its_alarm_its_reason_and_its_glitches():
             0: RecordFacts(
                 in_mains=("outer",), in_shaft=("inner",), bands=3, found_rpm=1798.51234, far_from_stated=True
             ),
-            1: RecordFacts(glitches=4, shocks=2, bands=7),
+            1: RecordFacts(glitches=4, shocks=2, bands=4),
             2: RecordFacts("too short", jumps=1),
         },
     )
@@ -179,7 +204,7 @@ def test_each_record_is_told_with_its_alarm_its_reason_and_its_glitches():
     assert (first.found_speed_rpm, third.found_speed_rpm) == (1798.51, None)
     assert (first.in_mains, second.in_mains) == ("outer", "")
     assert (first.in_shaft, second.in_shaft) == ("inner", "")
-    assert [prediction.bands for prediction in predictions] == [3, 7, 0]
+    assert [prediction.bands for prediction in predictions] == [3, 4, 0]
     assert first.models["rule"].alarm == RULE.threshold
     assert first.models["said"].alarm == pytest.approx(0.7)
     assert np.isnan(third.models["said"].alarm)

@@ -80,3 +80,21 @@ def test_a_nominal_speed_may_be_off_by_more_than_one_that_was_measured(basis: st
     known = known_kinematics(GEOMETRY | {"speed_rpm": 1800.0} | said)
     assert known is not None
     assert known.speed_within == within
+
+
+def test_orders_that_were_rounded_tell_a_whole_number_of_balls() -> None:
+    assert known_kinematics(UNKNOWN | {"bpfo": 3.245, "bpfi": 4.7546, "speed_rpm": 1500.0}).balls == 8
+
+
+def test_three_balls_are_the_fewest() -> None:
+    known = known_kinematics(UNKNOWN | {"balls": 3, "bpfo": 1.2, "speed_rpm": 1800.0})
+    assert (known.balls, known.bpfi) == (3, pytest.approx(1.8))
+
+
+def test_a_stated_order_of_ball_spin_is_taken() -> None:
+    stated = {"balls": 9, "bpfo": 3.585, "bsf": 2.357, "speed_rpm": 1500.0}
+    assert known_kinematics(UNKNOWN | stated).ball_spin == 2.357
+
+
+def test_a_speed_that_is_no_number_is_unknown() -> None:
+    assert known_kinematics(GEOMETRY | {"speed_rpm": "fast"}) is None

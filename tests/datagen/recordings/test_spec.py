@@ -36,6 +36,8 @@ def test_upper_settings_replace_lower_ones_and_their_alternatives_and_notes_are_
         "speed_hz": 2.0, "unit": "g", "y": "a", "notes": {"a": 1, "b": 2},
     }  # fmt: skip
     assert "y" not in merged(lower, {"channel": ()})
+    for axis in ("x", "y"):
+        assert merged({"channel": (), "unit": "g"}, {axis: "b"}) == {axis: "b", "unit": "g"}
     assert merged({"y": "a", "unit": "g"}, {"x": "b"}) == {"y": "a", "x": "b", "unit": "g"}
     assert merged({"channel": (), "unit": "g"}, {"x": "b"}) == {"x": "b", "unit": "g"}
     assert merged({"extent_mm": 1.0, "depth_um": 2.0}, {"extent_deg": 3.0}) == {"depth_um": 2.0, "extent_deg": 3.0}

@@ -29,3 +29,7 @@ def test_bearings_are_drawn_with_all_their_records():
 
 def test_one_bearing_has_no_interval():
     assert all(map(math.isnan, interval_over_bearings(np.ones(3), np.zeros(3, dtype=np.int64))))
+
+
+def test_draws_of_bearings_without_weight_tell_nothing():
+    assert interval_over_bearings(np.array([6.0, 0.0]), np.array([0, 1]), np.array([3.0, 0.0])) == (2.0, 2.0)

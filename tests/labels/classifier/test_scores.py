@@ -16,6 +16,7 @@ from labels.classifier.scores import (
     confusion,
     exact_interval,
     paired_difference,
+    unseen_share,
 )
 
 
@@ -198,6 +199,9 @@ def test_the_confusion_counts_rows_of_truth():
         ([1730.0, 1750.0, 1772.0, 1797.0] * 3, [1730.0, 1750.0, 1784.5]),
         ([900.0, 1772.0] * 6, [900.0, 1772.0]),  # the largest value has a bin of its own where it fills one
         ([900.0] * 4 + [1200.0] * 4 + [1772.0] * 4, [900.0, 1200.0, 1772.0]),
+        ([-10.0, -10.02] * 6, [-10.01]),
+        ([1000.0, 1002.9] * 6, [1001.45]),
+        ([1000.0] * 6 + [1003.5] * 6, [1000.0, 1003.5]),
         ([0.3] * 4 + [0.6] * 4 + [200.0] * 4, [0.3, 0.6, 200.0]),  # small beside the largest, and not the same
     ],
 )
@@ -236,3 +240,25 @@ def test_the_area_under_the_roc_has_an_interval_from_five_a_side_on():
     found = area_interval(positive, score)
     assert 0.0 < found.low < found.value < found.high <= 1.0
     assert math.isfinite(area_interval(~positive, -score).low)
+
+
+def test_groups_are_those_of_the_records_whose_quantity_is_known():
+    quantity, right = np.array([np.nan] + [1.0] * 20), np.array([False, True] + [False] * 19)
+    (row,) = accuracy_against(quantity, right, bins=1, groups=np.array([1, 0] + [1] * 19))
+    # Of two groups, all right and all wrong, either may be drawn alone.
+    assert (row["records"], row["low"], row["high"]) == (20, 0.0, 1.0)
+
+
+def test_without_records_nothing_is_known():
+    nothing = np.array([])
+    assert math.isnan(balanced_accuracy(nothing, nothing))
+    assert math.isnan(accuracy(nothing, nothing))
+    found = bootstrap(accuracy, nothing, nothing)
+    assert all(map(math.isnan, (found.value, found.low, found.high)))
+
+
+def test_the_smaller_class_bounds_what_was_not_seen_wherever_it_stands():
+    # All of the doubt of 0.025 may lie in the class of eight, half of the mean.
+    expected = 0.5 * (1.0 - 0.025 ** (1.0 / 8.0))
+    assert unseen_share([200, 8]) == pytest.approx(expected)
+    assert unseen_share([8, 200]) == pytest.approx(expected)

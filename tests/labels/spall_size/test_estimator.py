@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -15,7 +16,7 @@ from labels.spall_size.signal.alignment import Alignment
 from labels.spall_size.signal.mean_pass import MeanPass
 from labels.spall_size.signal.pass_track import PassTrack
 from labels.spall_size.situation import Situation
-from labels.spall_size.size_estimate import SizeOutcome
+from labels.spall_size.size_estimate import SizeEstimate, SizeOutcome
 from physics.checks import InvalidParameter
 
 GEARBOX = Situation(12, 2, 38.75e-3, 7.12e-3, 2.0 * math.pi * 30.0)
@@ -133,3 +134,53 @@ def test_a_rate_that_is_none_is_refused(judging, rate, polarity_known):
     noise, situation = np.random.default_rng(0).standard_normal(1000), replace(GEARBOX, polarity_known=polarity_known)
     with pytest.raises(InvalidParameter, match="rate"):
         judging(0.1, 1.0, 1.0).estimate(noise, rate, situation)
+
+
+HEAR = "labels.spall_size.estimation.estimator.hear"
+
+
+@pytest.mark.parametrize(("known", "signs", "trust"), [(True, [1.0], 0.3), (False, [1.0, -1.0], 0.7)])
+def test_both_polarities_are_tried_where_it_is_unknown_and_the_more_trusted_counts(
+    judging, monkeypatch, known, signs, trust
+):
+    asked = []
+
+    def evidence(sign):
+        asked.append(sign)
+        return {1.0: 0.3, -1.0: 0.7}[sign]
+
+    def judged(self, found, situation):
+        return SizeEstimate(SizeOutcome.NO_EVENT_PAIR, "", trust=found)
+
+    monkeypatch.setattr(HEAR, lambda *_: SimpleNamespace(evidence=evidence))
+    monkeypatch.setattr(SizeEstimator, "judge", judged)
+    noise, rate = passes_of_noise(20, "inner", 40.0)
+    found = judging(0.1, 1.0, 1.0).estimate(noise, rate, replace(GEARBOX, polarity_known=known))
+    assert (found.trust, asked) == (trust, signs)
+
+
+@pytest.mark.parametrize("heard", [None, SimpleNamespace(evidence=lambda sign: None)])
+def test_without_passes_or_events_there_are_no_passes(judging, monkeypatch, heard):
+    monkeypatch.setattr(HEAR, lambda *_: heard)
+    found = judging(0.1, 1.0, 1.0).estimate(*passes_of_noise(20, "inner", 40.0), GEARBOX)
+    assert found.outcome is SizeOutcome.NO_PASSES
+
+
+@pytest.mark.parametrize("doubt", [0.1, 0.9])
+def test_the_method_says_whether_the_load_was_known(judging, doubt):
+    estimator, evidence = judging(doubt, 1.0, 1.0), one_pair(0.0, 20.0)
+    loaded = replace(GEARBOX, load=100.0, load_deflection=1e10)
+    assert estimator.judge(evidence, loaded).method == "event pair, shortening from load and Hertz factor"
+    assert estimator.judge(evidence, GEARBOX).method == "event pair, prior shortening"
+
+
+def test_passes_that_are_hardly_heard_have_no_event_times(judging):
+    lined_up = Alignment(np.array([200.0, 300.0, 400.0]), np.array([1.0, 0.019, 0.021]))
+    found = judging(0.1, 1.0, 1.0).judge(replace(one_pair(0.0, 20.0), alignment=lined_up), GEARBOX)
+    assert found.event_times[:, 0] == pytest.approx((np.array([200.0, 400.0]) - ONSET) / RATE)
+
+
+def test_the_arc_of_the_lag_is_its_share_of_the_mean_pass(judging):
+    evidence = one_pair(0.0, 20.0)
+    tracked = replace(evidence, track=replace(evidence.track, period=0.09))
+    assert judging(0.1, 1.0, 1.0).judge(tracked, GEARBOX).lag_arc == pytest.approx(math.radians(0.2 * 30.0))

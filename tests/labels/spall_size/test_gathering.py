@@ -461,3 +461,16 @@ def test_a_single_candidate_is_no_evidence(pulse_train, monkeypatch):
     train = pulse_train(150.0 / RATE, 0.011)
     monkeypatch.setattr("labels.spall_size.estimation.gathering.candidate_places", lambda mean: np.array([3.0]))
     assert gather_evidence(train.signal, RATE, {"outer": 0.011}) is None
+
+
+def test_the_race_that_shows_most_clearly_is_taken_in_whatever_order_they_are_asked_for(pulse_train):
+    signal = pulse_train(LAG, PERIOD).signal
+    periods = {"outer": 1.01 * PERIOD, "inner": PERIOD / 1.45}
+    for races in (("outer", "inner"), ("inner", "outer")):
+        assert gather_evidence(signal, RATE, {race: periods[race] for race in races}).race == "outer"
+    assert gather_evidence(signal, RATE, {"outer": 1.45 * PERIOD, "inner": PERIOD}).race == "inner"
+
+
+def test_too_few_passes_give_no_evidence():
+    noise = np.random.default_rng(0).standard_normal(1000)  # 1.4 passes
+    assert gather_evidence(noise, RATE, {"outer": 0.011}) is None

@@ -170,6 +170,13 @@ CASES = {
         "part[1].machine.factors.support_stifness",
         'did you mean "support_stiffness"?',
     ),
+    "a misspelt share of the split": (
+        "[signal]",
+        "[split]\ntrian = 1.0\n[signal]",
+        4,
+        "split.trian",
+        'did you mean "train"? (known here: train, validation, test)',
+    ),
     "a misspelt table": ("[part.defect]", "[part.defekt]", 10, "part[1].defekt", 'did you mean "defect"?'),
 }
 

@@ -189,6 +189,7 @@ def test_a_command_line_that_cannot_be_read_is_told_in_one_line_with_what_is_all
         (("generate", "RECIPE", "--out="), "--out"),
         (("generate", "", "--out", "corpus"), "an argument"),
         (("check", ""), "an argument"),
+        (("classify", "--train", "impulse-trains", "--test", ""), "--test"),
         (("report", "RECIPE", "--json", "", "--out", "card"), "--json"),
     ],
 )

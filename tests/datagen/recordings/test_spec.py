@@ -77,6 +77,14 @@ def test_given_settings_come_in_the_order_in_which_they_are_declared_however_the
         ),
         ("name = 'a'\nlicense = 'x'\n[[recording]]\nname = 'x'\nfiles = 'a'\n", 'unknown key; did you mean "licence"?'),
         ("name = a\n", "not valid TOML"),
+        *(
+            (f"name = 'a'\n[[recording]]\nname = 'x'\nfiles = 'a'\n{line}\n", message)
+            for line, message in (
+                ("unit = 'cm/s2'", 'unit = "m/s2" and scale = 0.01'),
+                ("unit = 'mg'", 'unit = "g" and scale = 0.001'),
+                ("y = 'a'\nchannel = [{name = 'n', y = 'b'}]", "x and y are those of the one channel"),
+            )
+        ),
     ],
 )
 def test_a_spec_that_says_too_little_or_too_much_is_refused(text: str, message: str, tmp_path: Path) -> None:

@@ -130,11 +130,9 @@ def _array(variable: Variable, values: Any, imported: bool) -> tuple[tuple[str, 
         attributes["units"] = variable.unit
     if variable.dtype == "float32":
         attributes["comment"] += f" {ROUNDED}"
-    reasons = [variable.missing] * bool(variable.missing)
-    if imported and variable.name in NUMBERS:
-        reasons.append("it is unknown")
-    if reasons:
-        attributes["missing"] = f"NaN where {', or '.join(reasons)}"
+    unknown = "it is unknown" if imported and variable.name in NUMBERS else ""
+    if variable.missing or unknown:
+        attributes["missing"] = f"NaN where {', or '.join(filter(None, (variable.missing, unknown)))}"
     return variable.dims, np.asarray(values, dtype=dtype), attributes
 
 

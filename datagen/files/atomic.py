@@ -72,16 +72,26 @@ def write_results(folder: Path, files: Mapping[str, bytes]) -> None:
 
     Where the first of them cannot be written, folders that were not there before are not left there either.
     """
+    try:
+        with leaving_no_folders(folder):
+            folder.mkdir(parents=True, exist_ok=True)
+            for name, content in files.items():
+                write_atomically(folder / name, content)
+    except OSError as problem:
+        raise BadInput(f"cannot write here: {problem.strerror}", str(folder), OUT) from None
+
+
+@contextmanager
+def leaving_no_folders(folder: Path) -> Iterator[None]:
+    """If the block fails, delete `folder` and those around it that were not there before, as far as they are empty."""
     new = [path for path in (folder, *folder.parents) if not path.exists()]
     try:
-        folder.mkdir(parents=True, exist_ok=True)
-        for name, content in files.items():
-            write_atomically(folder / name, content)
-    except OSError as problem:
+        yield
+    except BaseException:
         with suppress(OSError):
             for path in new:
                 path.rmdir()
-        raise BadInput(f"cannot write here: {problem.strerror}", str(folder), OUT) from None
+        raise
 
 
 def sync_folder(folder: Path) -> None:

@@ -95,11 +95,12 @@ def _clean_table(path: Path, layout: CsvLayout) -> Columns | None:
     shape = _shape(rows[head:], layout)
     if shape.words:
         refuse_split_numbers(path, line, cells, layout)
-    table = _loaded(path, layout, rows[head - 1][0] if head else layout.skip_lines, shape.converters())
+    converters = shape.converters()
+    table = _loaded(path, layout, rows[head - 1][0] if head else layout.skip_lines, converters)
     if table is None or (table.shape[1] == 1 and _has_gaps(path, layout, line)):
         return None
     names, width = _without_end(_names(path, rows[0], layout, table.shape[1]), table.shape[1], shape.ends_empty)
-    numbers = [column for column in range(table.shape[1]) if column not in shape.converters()]
+    numbers = [column for column in range(table.shape[1]) if column not in converters]
     if len(names) != width or not numbers or not np.isfinite(table[:, numbers]).all():
         return None
     table = table[:, :width]

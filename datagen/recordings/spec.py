@@ -8,6 +8,7 @@ from typing import Annotated, Any
 from pydantic import Field, PrivateAttr, ValidationError, model_validator
 
 from datagen.errors import BadInput
+from datagen.recordings.label_table import FILE_COLUMN
 from datagen.recordings.settings import RecordingSettings
 from datagen.recordings.spec_files import find_spec
 from datagen.recordings.values import word
@@ -64,7 +65,7 @@ class Recording(RecordingSettings):
     @model_validator(mode="after")
     def _notes_are_no_settings(self) -> Recording:
         for column in self.note_columns:
-            if column == "file" or column in RecordingSettings.model_fields:
+            if column == FILE_COLUMN or column in RecordingSettings.model_fields:
                 problem = f'"{column}" is a column that says something else, and is never a note'
                 raise refuse(problem, "note_columns", "columns that are not called like a setting")
         return self

@@ -7,12 +7,12 @@ import re
 import shutil
 import socket
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from pathlib import Path
 
 from datagen.corpus_files.shard import shards_folder
 from datagen.errors import BadInput
-from datagen.files.atomic import TEMPORARY_SUFFIX, sync_folder
+from datagen.files.atomic import TEMPORARY_SUFFIX, leaving_no_folders, sync_folder
 from datagen.files.places import OUT
 
 
@@ -26,23 +26,19 @@ def staged(folder: Path) -> Iterator[Path]:
     folder = folder.resolve()
     beginning = f".{folder.name}.{socket.gethostname()}."
     staging = folder.with_name(f"{beginning}{os.getpid()}{TEMPORARY_SUFFIX}")
-    new = [path for path in folder.parents if not path.exists()]
     _sweep(folder.parent, beginning)
-    try:
-        with writing(folder):
-            shards_folder(staging).mkdir(parents=True)
-        yield staging
-        with writing(folder):
-            if folder.exists():
-                folder.rmdir()
-            staging.rename(folder)
-            sync_folder(folder.parent)
-    finally:
-        shutil.rmtree(staging, ignore_errors=True)
-        if not folder.exists():
-            with suppress(OSError):
-                for path in new:
-                    path.rmdir()
+    with leaving_no_folders(folder.parent):
+        try:
+            with writing(folder):
+                shards_folder(staging).mkdir(parents=True)
+            yield staging
+            with writing(folder):
+                if folder.exists():
+                    folder.rmdir()
+                staging.rename(folder)
+                sync_folder(folder.parent)
+        finally:
+            shutil.rmtree(staging, ignore_errors=True)
 
 
 @contextmanager

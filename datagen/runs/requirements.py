@@ -117,12 +117,13 @@ def _require_record(recipe: Recipe, rate: float, duration: float, need: float) -
     memory, settling = memory_bytes(), recipe.signal.settle_s
     if need <= memory:
         return
-    longest = (duration + settling) * memory / need
-    setting, value, other = ("duration_s", duration, settling)
-    if settling >= longest > duration:
-        setting, value, other = ("settle_s", settling, duration)
+    longest = (duration + settling) * memory / need  # s, what settles included
+    setting, value, room = "duration_s", duration, f"{longest - settling:.2g} s"
+    if longest <= settling:
+        room = f"{longest:.2g} s, settle_s included,"
+        if longest > duration:
+            setting, value, room = "settle_s", settling, f"{longest - duration:.2g} s"
     begin = f" after {settling:g} s of settling" if settling else ""
-    room = f"{longest - other:.2g} s" if longest > other else f"{longest:.2g} s, settle_s included,"
     raise _refusal(
         recipe, ("signal", setting),
         f"a record of {rate * duration:.3g} samples{begin} needs about {bytes_text(need)} of memory, and this machine "

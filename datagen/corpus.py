@@ -92,7 +92,13 @@ class Corpus:
             if not _is_of_records(file, variable):
                 known = ", ".join(name for name in file.variables if _is_of_records(file, name))
                 held = f"; dataset({record}) has it among its tables" if variable in file.variables else ""
-                raise BadInput(f"record {record} has no such signal{held}", shard, "variable", variable, known)
+                raise BadInput(
+                    f"record {record} has no such signal{held}",
+                    file=shard,
+                    field="variable",
+                    value=variable,
+                    allowed=known,
+                )
             return _values(file, variable, position)
 
     def signal(self, record: int, axis: str = "y") -> NDArray[np.float64]:
@@ -100,7 +106,9 @@ class Corpus:
         shard, position = self._place(record)
         axes = self.axes(record)
         if axis not in axes:
-            raise BadInput(f"record {record} has no such axis", shard, "axis", axis, ", ".join(axes))
+            raise BadInput(
+                f"record {record} has no such axis", file=shard, field="axis", value=axis, allowed=", ".join(axes)
+            )
         with self._shards.reading(shard) as file:
             _require_at_its_place(file, record, position, shard)
             found: NDArray[Any] = file.variables["acceleration"][position, :, axes.index(axis)]
@@ -121,13 +129,17 @@ class Corpus:
     def _place(self, record: int) -> tuple[str, int]:
         if isinstance(record, bool | np.bool_) or not _is_whole(record):
             allowed = "a record index, such as those in labels[mask].record"
-            raise BadInput("not the index of a record", str(self.folder), "record", record, allowed)
+            raise BadInput(
+                "not the index of a record", file=str(self.folder), field="record", value=record, allowed=allowed
+            )
         try:
             return self._places[int(record)]
         except KeyError:
             first, last = min(self._places, default=0), max(self._places, default=0)
             allowed = f"{first} to {last}" if len(self._places) == last - first + 1 else "a record of its index.csv"
-            raise BadInput("not in this corpus", str(self.folder), "record", int(record), allowed) from None
+            raise BadInput(
+                "not in this corpus", file=str(self.folder), field="record", value=int(record), allowed=allowed
+            ) from None
 
     @property
     def open_files(self) -> list[Path]:
@@ -189,13 +201,13 @@ class Corpus:
 
     def _stack(self, signals: list[NDArray[Any]], variable: str) -> NDArray[Any]:
         if not signals:
-            raise BadInput("no record was chosen", str(self.folder), "variable", variable)
+            raise BadInput("no record was chosen", file=str(self.folder), field="variable", value=variable)
         shapes = sorted({np.shape(signal) for signal in signals})
         if len(shapes) > 1:
             raise BadInput(
                 f"the chosen records differ in shape ({', '.join(map(str, shapes))}); choose records of one sampling "
                 "rate, duration and bearing size",
-                str(self.folder), "variable", variable,
+                file=str(self.folder), field="variable", value=variable,
             )  # fmt: skip
         return np.stack(signals)
 
@@ -229,7 +241,7 @@ class Corpus:
         known = [name for name in table if table[name].dtype.kind != "f"]
         if stratify not in table or _has_decimals(table[stratify]):
             problem = "no such label" if stratify not in table else "this label takes other values with every record"
-            raise BadInput(problem, str(self.folder), "stratify", stratify, ", ".join(known))
+            raise BadInput(problem, file=str(self.folder), field="stratify", value=stratify, allowed=", ".join(known))
         bearings = table["bearing_id"].nunique()
         most = min(bearings, max(Counter(_as_words(table[stratify])).values(), default=0))
         if isinstance(count, int | np.integer) and 2 <= count <= most:
@@ -239,7 +251,9 @@ class Corpus:
         bearings_text = f"its records are of {bearings} bearings" if bearings != 1 else "its records are of one bearing"
         if (table["bearing_id"] == UNKNOWN).all():
             bearings_text = "the bearing_id of its records is unknown, so that they count as one bearing"
-        raise BadInput(f"{bearings_text}, and {limit}", str(self.folder), "count", count, allowed)
+        raise BadInput(
+            f"{bearings_text}, and {limit}", file=str(self.folder), field="count", value=count, allowed=allowed
+        )
 
 
 def _as_words(column: pandas.Series) -> list[str]:
@@ -268,7 +282,12 @@ def _require_at_its_place(file: netCDF4.Dataset, record: int, position: int, sha
     """Raise BadInput unless the shard holds that record there: a run since the labels were read may have moved it."""
     held = file.variables["record"]
     if position < held.shape[0] and int(held[position]) != int(record):
-        raise BadInput("the corpus has changed since its labels were read; open it again", shard, "record", int(record))
+        raise BadInput(
+            "the corpus has changed since its labels were read; open it again",
+            file=shard,
+            field="record",
+            value=int(record),
+        )
 
 
 def _is_whole(record: object) -> bool:

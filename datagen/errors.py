@@ -17,9 +17,9 @@ class BadInput(Exception):
     """
 
     def __init__(
-        self, problem: str = "", file: str = "", field: str = "", value: object = None, allowed: str = ""
+        self, problem: str = "", *, file: str = "", field: str = "", value: object = None, allowed: str = ""
     ) -> None:
-        super().__init__(problem, file, field, value, allowed)
+        super().__init__(problem)
         self.problem = problem
         self.file = file
         self.field = field

@@ -88,7 +88,7 @@ def _labels(folder: Path, split: str) -> pandas.DataFrame:
     """Labels of the records of a split of the corpus in `folder`; raises BadInput where there are none."""
     labels = Corpus(folder).labels
     if labels.empty:
-        raise BadInput("this corpus has no records", str(folder))
+        raise BadInput("this corpus has no records", file=str(folder))
     require_split(folder, labels["split"], split)
     return labels if split == ALL else labels[labels["split"] == split]
 
@@ -97,7 +97,7 @@ def _require_distinct(folders: Sequence[Path]) -> None:
     seen = set()
     for folder in folders:
         if folder.resolve() in seen:
-            raise BadInput("this corpus is given twice", str(folder), allowed="each corpus once")
+            raise BadInput("this corpus is given twice", file=str(folder), allowed="each corpus once")
         seen.add(folder.resolve())
 
 

@@ -104,10 +104,10 @@ def _require_whole_transfer(folder: Path) -> None:
 
     manifest, recipe = Corpus(folder).manifest, load_recipe("transfer")
     if manifest.identity.recipe_hash != recipe.short_hash:
-        raise BadInput("this is no corpus of the recipe transfer as it is now", str(folder))
+        raise BadInput("this is no corpus of the recipe transfer as it is now", file=str(folder))
     if manifest.records < manifest.recipe_records:
         problem = f"this corpus has {manifest.records} of {manifest.recipe_records} records"
-        raise BadInput(problem, str(folder), allowed="all of the recipe transfer")
+        raise BadInput(problem, file=str(folder), allowed="all of the recipe transfer")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -59,5 +59,5 @@ def unseen_records(tested: Corpus, learned: LearnedMachines) -> pandas.DataFrame
     if chosen.empty:
         problem = "all its virtual bearings, or all outside its split test, were learned from"
         allowed = "a corpus of a recipe with another seed, or one with a split test"
-        raise BadInput(problem, str(tested.folder), "--test", None, allowed)
+        raise BadInput(problem, file=str(tested.folder), field="--test", value=None, allowed=allowed)
     return chosen

@@ -48,7 +48,7 @@ def checked(asked: Benchmark) -> Benchmark:
     estimator = _own_estimator(learning.estimator) if learning.estimator is not None else None
     if scoring.levels and learning.takes_windows:
         problem = "noise is added where features are computed"
-        raise BadInput(problem, "", "--noise-db", scoring.noise_db, "--input features")
+        raise BadInput(problem, file="", field="--noise-db", value=scoring.noise_db, allowed="--input features")
     if asked.learning_curve and estimator is not None and not hasattr(estimator, "fit"):
         problem = f"{learning.estimator} does not learn"
         raise BadInput(problem, field="--learning-curve", allowed="our learners, or an estimator with a method fit")
@@ -139,15 +139,15 @@ def _option(name: str) -> str:
 def _require_folders(train: Path, tests: tuple[Path, ...], windows: bool) -> None:
     if not is_saved(train) and not is_kept(train) and ingredients_of(train) is None:
         if _corpus(train, TRAIN, TRAINING).manifest.imported:
-            raise BadInput("classifiers learn from simulated corpora only", str(train), "--train")
+            raise BadInput("classifiers learn from simulated corpora only", file=str(train), field="--train")
     elif windows:
         raise BadInput(f"of {train} there are features only", field="--input", value=WINDOWS, allowed=FEATURES)
     for place, folder in enumerate(tests):
         if folder.resolve() in (earlier.resolve() for earlier in tests[:place]):
-            raise BadInput("this corpus is named twice", str(folder), "--test")
+            raise BadInput("this corpus is named twice", file=str(folder), field="--test")
         corpus = _corpus(folder, "--test", "the folder of a corpus, simulated or imported")
         if corpus.labels.empty:
-            raise BadInput("this corpus has no records", str(folder), "--test")
+            raise BadInput("this corpus has no records", file=str(folder), field="--test")
         if corpus.manifest.imported and not os.access(folder, os.W_OK):
             raise no_log(folder)
 

@@ -65,24 +65,30 @@ def load_trained(path: Path) -> Trained:
             _require_same(path, _head(file.readline(LONGEST_HEAD)))
             kept = file.read()
     except OSError as problem:
-        raise BadInput(f"cannot be read: {problem.strerror}", str(path), TRAIN) from None
+        raise BadInput(f"cannot be read: {problem.strerror}", file=str(path), field=TRAIN) from None
     try:
         trained = pickle.loads(zlib.decompress(kept))
     except Exception:  # whatever a damaged pickle leads to
         trained = None
     if not isinstance(trained, Trained):
-        raise BadInput("is damaged", str(path), TRAIN, allowed=AGAIN)
+        raise BadInput("is damaged", file=str(path), field=TRAIN, allowed=AGAIN)
     return trained
 
 
 def _require_same(path: Path, head: dict[str, Any]) -> None:
     """Raise BadInput unless the `head` of a file says that it was made by what runs now."""
     if head.get("format") != FORMAT:
-        raise BadInput("holds no learned classifiers", str(path), TRAIN, allowed=f"a corpus, or what {SAVE} wrote")
+        raise BadInput(
+            "holds no learned classifiers", file=str(path), field=TRAIN, allowed=f"a corpus, or what {SAVE} wrote"
+        )
     for name, now in _made_with().items():
         if head.get(name) != now:
             raise BadInput(
-                f"was learned with {name} {head.get(name)}, and this is {now}", str(path), TRAIN, None, AGAIN
+                f"was learned with {name} {head.get(name)}, and this is {now}",
+                file=str(path),
+                field=TRAIN,
+                value=None,
+                allowed=AGAIN,
             )
 
 

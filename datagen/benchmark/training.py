@@ -110,7 +110,9 @@ def training_records(folder: Path, also_tested: bool, first: int | None = None) 
     chosen = chosen.iloc[:first]
     if chosen["bearing_id"].nunique() < FEWEST_BEARINGS:
         allowed = f"a corpus with {FEWEST_BEARINGS} virtual bearings or more outside its split test"
-        raise BadInput("too few virtual bearings to learn from", str(folder), "--train", None, allowed)
+        raise BadInput(
+            "too few virtual bearings to learn from", file=str(folder), field="--train", value=None, allowed=allowed
+        )
     return chosen
 
 

@@ -45,7 +45,7 @@ def write_report(folder: str | Path, out: str | Path | None = None) -> Report:
     _check_folder(out)
     facts = corpus_facts(folder)
     if not facts.info.records:
-        raise BadInput("this corpus holds no records yet", str(folder))
+        raise BadInput("this corpus holds no records yet", file=str(folder))
     contents = _contents(folder, facts, out)
     write_results(out, contents)
     for picture in filter(OF_A_RECORD.fullmatch, os.listdir(out)):
@@ -81,4 +81,4 @@ def _check_folder(out: Path) -> None:
     require_folder(out)
     held = set(os.listdir(out)) if out.is_dir() else set()
     if held and not held >= {CARD, METADATA, VOCABULARY}:
-        raise BadInput("this folder holds things other than a report", str(out), OUT)
+        raise BadInput("this folder holds things other than a report", file=str(out), field=OUT)

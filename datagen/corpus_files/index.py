@@ -114,7 +114,7 @@ def read_index(folder: Path) -> pandas.DataFrame:
     except (FileNotFoundError, NotADirectoryError):
         raise no_corpus(folder, path.name) from None
     except OSError as problem:
-        raise BadInput(f"cannot be read: {problem.strerror}", str(path)) from None
+        raise BadInput(f"cannot be read: {problem.strerror}", file=str(path)) from None
     except (UnicodeDecodeError, csv.Error):
         raise _no_index("not a table of text", path) from None
     texts = _columns(rows, path)
@@ -176,7 +176,7 @@ def _is_one(text: str, kind: str) -> bool:
 
 def _no_index(problem: str, path: Path, line: int = 0) -> BadInput:
     remedy = "delete it and generate again into the same folder, which writes it again (recordings: import again)"
-    return BadInput(f"not the index of a corpus: {problem}; {remedy}", at_line(path, line))
+    return BadInput(f"not the index of a corpus: {problem}; {remedy}", file=at_line(path, line))
 
 
 def _typed(texts: tuple[str, ...], kind: str) -> NDArray[Any] | list[str]:

@@ -141,7 +141,7 @@ def read_manifest(folder: Path) -> Manifest:
     except UNREADABLE as problem:
         kind = BadInput if isinstance(problem, OSError) else DamagedManifest
         remedy = f"; {ANEW.format(folder=folder)}" if kind is DamagedManifest and has_finished_shards(folder) else ""
-        raise kind(f"not a manifest of a corpus: {_in_words(problem)}{remedy}", str(path)) from None
+        raise kind(f"not a manifest of a corpus: {_in_words(problem)}{remedy}", file=str(path)) from None
 
 
 def stated_records(folder: Path) -> object:
@@ -154,18 +154,18 @@ def stated_records(folder: Path) -> object:
 def no_corpus(folder: Path, lacking: str) -> BadInput:
     """The error of a `folder` that is no corpus because it has no file called `lacking`."""
     if not folder.exists():
-        return BadInput("no such folder", str(folder), allowed="the folder of a corpus")
+        return BadInput("no such folder", file=str(folder), allowed="the folder of a corpus")
     if not folder.is_dir():
-        return BadInput("this is not a folder", str(folder), allowed="the folder of a corpus")
+        return BadInput("this is not a folder", file=str(folder), allowed="the folder of a corpus")
     if has_finished_shards(folder):
         return BadInput(
             f"the {lacking} of this corpus is lost, or its run was killed or is not done yet; "
             f"{ANEW.format(folder=folder)}",
-            str(folder),
+            file=str(folder),
         )
     return BadInput(
         f"this folder has no {lacking}, so it is not a corpus, or its making was interrupted or is not done yet",
-        str(folder),
+        file=str(folder),
     )
 
 

@@ -16,7 +16,7 @@ READ_ERRORS = (OSError, RuntimeError, ValueError, KeyError, IndexError, Attribut
 def unencodable(path: Path) -> BadInput:
     """The error of a path that cannot be passed to the netCDF library in this locale's encoding."""
     problem = f"the encoding of this locale, {sys.getfilesystemencoding()}, lacks letters of this path"
-    return BadInput(problem, str(path), allowed="a locale with UTF-8 (LC_ALL=C.UTF-8), or a path in ASCII")
+    return BadInput(problem, file=str(path), allowed="a locale with UTF-8 (LC_ALL=C.UTF-8), or a path in ASCII")
 
 
 @contextmanager
@@ -28,21 +28,21 @@ def reading(folder: Path, shard: str) -> Iterator[None]:
         raise unencodable(folder / shard) from None
     except PermissionError:
         raise BadInput(
-            "this shard cannot be read for lack of permission; change its permissions", str(folder / shard)
+            "this shard cannot be read for lack of permission; change its permissions", file=str(folder / shard)
         ) from None
     except FileNotFoundError:
-        raise BadInput(f"this shard is missing: {AGAIN}", str(folder / shard)) from None
+        raise BadInput(f"this shard is missing: {AGAIN}", file=str(folder / shard)) from None
     except IndexError:
         raise BadInput(
             f"index.csv places a record beyond the end of this shard: run `spallgen check {folder}`, delete index.csv "
             f"and {AGAIN}",
-            str(folder / shard),
+            file=str(folder / shard),
         ) from None
     except READ_ERRORS as problem:
         raise BadInput(
             f"this shard cannot be read ({_cause(problem)}): run `spallgen check {folder}`, delete the file and "
             f"{AGAIN}",
-            str(folder / shard),
+            file=str(folder / shard),
         ) from None
 
 

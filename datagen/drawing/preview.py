@@ -56,7 +56,7 @@ def preview_png(source: str | Path, record: int, say: Say = ignore) -> tuple[byt
         if has_finished_shards(folder):
             raise no_corpus(folder, manifest_path(folder).name)
         problem = f"neither a corpus ({manifest_path(folder).name}) nor a recipe ({FILE_NAME}) is in this folder"
-        raise BadInput(problem, str(folder))
+        raise BadInput(problem, file=str(folder))
     if manifest_path(folder).is_file() and read_manifest(folder).imported:
         return _measured_png(folder, record)
     held = manifest_path(folder).is_file()

@@ -64,7 +64,7 @@ def write_file(path: Path, data: bytes, option: str) -> None:
         else:
             write_atomically(Path(os.path.realpath(path)), data)
     except OSError as problem:
-        raise BadInput(f"cannot write this file: {problem.strerror}", str(path), option) from None
+        raise BadInput(f"cannot write this file: {problem.strerror}", file=str(path), field=option) from None
 
 
 def write_results(folder: Path, files: Mapping[str, bytes]) -> None:
@@ -78,7 +78,7 @@ def write_results(folder: Path, files: Mapping[str, bytes]) -> None:
             for name, content in files.items():
                 write_atomically(folder / name, content)
     except OSError as problem:
-        raise BadInput(f"cannot write here: {problem.strerror}", str(folder), OUT) from None
+        raise BadInput(f"cannot write here: {problem.strerror}", file=str(folder), field=OUT) from None
 
 
 @contextmanager

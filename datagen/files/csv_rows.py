@@ -75,7 +75,9 @@ def read_csv_rows(
             rows = _split(lines) if delimiter == BLANKS else _parsed(lines, delimiter, path, skip_lines)
             return list(islice(((skip_lines + line, cells) for line, cells in rows if cells or blank), most))
     except UnicodeError:
-        raise NotText(f"not a text file in {encoding}", str(path), allowed=f"the text saved in {encoding}") from None
+        raise NotText(
+            f"not a text file in {encoding}", file=str(path), allowed=f"the text saved in {encoding}"
+        ) from None
     except BROKEN:
         raise OSError(errno.EIO, "its compressed text is damaged or breaks off") from None
 
@@ -94,5 +96,5 @@ def _parsed(lines: Iterator[str], delimiter: str, path: Path, skipped: int) -> I
         except StopIteration:
             return
         except csv.Error as problem:
-            raise BadInput(f"not a row of a CSV table: {problem}", f"{path}, line {skipped + first}") from None
+            raise BadInput(f"not a row of a CSV table: {problem}", file=f"{path}, line {skipped + first}") from None
         yield first, cells

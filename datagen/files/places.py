@@ -70,7 +70,7 @@ def _is_in_corpus(folder: Path) -> bool:
 def refuse_other_than_file(path: Path, allowed: str) -> None:
     """Raise BadInput that says what lies at `path` where no file does; nothing happens if nothing lies there."""
     if os.path.exists(path):
-        raise BadInput(no_file(path), str(path), allowed=allowed)
+        raise BadInput(no_file(path), file=str(path), allowed=allowed)
 
 
 def no_file(path: Path) -> str:

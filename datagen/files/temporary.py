@@ -25,10 +25,10 @@ def no_temporary_file(problem: Exception, needed: float, allowed: str) -> BadInp
         folder = gettempdir()
         free = float(shutil.disk_usage(folder).free)
     except OSError:  # there is none
-        return NoTemporaryRoom(_said("", problem), "", "TMPDIR", allowed=allowed)
+        return NoTemporaryRoom(_said("", problem), field="TMPDIR", allowed=allowed)
     full = free < needed or getattr(problem, "errno", None) in NO_SPACE or not is_writable(folder)
     kind = NoTemporaryRoom if full else BadInput
-    return kind(_said(f", in which {bytes_text(free)} are free", problem), folder, "TMPDIR", allowed=allowed)
+    return kind(_said(f", in which {bytes_text(free)} are free", problem), file=folder, field="TMPDIR", allowed=allowed)
 
 
 def _said(free: str, problem: Exception) -> str:

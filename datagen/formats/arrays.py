@@ -106,7 +106,7 @@ def choose(arrays: Arrays, wish: str, path: Path, field: str) -> NDArray[Any]:
     except (IndexError, ValueError):
         shape = "x".join(map(str, found.shape))
         problem, allowed = f"{name} is an array of {shape} numbers", 'as in "NAME[:,0]" or "NAME[0,2]"'
-        raise BadInput(problem, str(path), field, wish, allowed) from None
+        raise BadInput(problem, file=str(path), field=field, value=wish, allowed=allowed) from None
 
 
 def chosen(arrays: Arrays, wish: str, path: Path, field: str) -> tuple[str, str | None]:
@@ -123,16 +123,18 @@ def chosen(arrays: Arrays, wish: str, path: Path, field: str) -> tuple[str, str 
             return found
     names = sorted(arrays)
     if not names:
-        raise NoVariable("the file holds no numbers", str(path), field, text)
+        raise NoVariable("the file holds no numbers", file=str(path), field=field, value=text)
     if isinstance(arrays, NumericVariables) and text in arrays.unread:
         problem, allowed = (
             "is a text, a table or a sparse matrix, which are not read",
             f"the number itself, or {_shown(names)}",
         )
-        raise NoVariable(problem, str(path), field, text, allowed)
+        raise NoVariable(problem, file=str(path), field=field, value=text, allowed=allowed)
     hint = arrays.hint if isinstance(arrays, Columns) else ""
     hint = hint or _elements(text, names) or _alike(text, names) or suggestion(text, names)
-    raise NoVariable(f"the file has no such variable{hint}", str(path), field, text, _shown(names))
+    raise NoVariable(
+        f"the file has no such variable{hint}", file=str(path), field=field, value=text, allowed=_shown(names)
+    )
 
 
 def _shown(names: list[str]) -> str:
@@ -165,7 +167,12 @@ def _named(arrays: Arrays, wish: str, path: Path, field: str) -> tuple[str, str 
     fitting = (held for held in arrays if _is_pattern(name) and fnmatchcase(held, pattern) and held not in told)
     known = [name] if name in arrays else list(fitting)
     if len(known) > 1:
-        raise BadInput(f"fits {len(known)} variables: {', '.join(sorted(known)[:MOST_NAMES])}", str(path), field, wish)
+        raise BadInput(
+            f"fits {len(known)} variables: {', '.join(sorted(known)[:MOST_NAMES])}",
+            file=str(path),
+            field=field,
+            value=wish,
+        )
     return (known[0], indexed["places"] if indexed else None) if known else None
 
 

@@ -69,15 +69,15 @@ def read_csv(path: Path, layout: CsvLayout) -> Columns:
         return _columns(path, layout, _without_blanks(rows, layout))
     except NotText:
         raise BadInput(
-            "is not text in this encoding", str(path), "csv.encoding", layout.encoding,
-            'the encoding of the file, such as "latin-1" or "utf-16"',
+            "is not text in this encoding", file=str(path), field="csv.encoding", value=layout.encoding,
+            allowed='the encoding of the file, such as "latin-1" or "utf-16"',
         ) from None  # fmt: skip
 
 
 def _refuse_packed(path: Path) -> None:
     with path.open("rb") as file:
         if file.read(max(map(len, PACKED))).startswith(PACKED):
-            raise BadInput("is packed or a workbook, not text", str(path), allowed="the table as text, unpacked")
+            raise BadInput("is packed or a workbook, not text", file=str(path), allowed="the table as text, unpacked")
 
 
 def _clean_table(path: Path, layout: CsvLayout) -> Columns | None:
@@ -223,7 +223,7 @@ def _names(path: Path, head: Row, layout: CsvLayout, width: int) -> list[str]:
     twice = next((name for name in names if name and names.count(name) > 1), None)
     if twice is not None:
         raise BadInput(
-            "this column occurs twice", f"{path}, line {head[0]}", twice,
+            "this column occurs twice", file=f"{path}, line {head[0]}", field=twice,
             allowed='different names, or csv = {header = false, skip_lines = …}, which calls the columns "1", "2", …',
         )  # fmt: skip
     return names
@@ -255,7 +255,7 @@ def _columns(path: Path, layout: CsvLayout, rows: list[Row]) -> Columns:
             hint = delimiter_hint(row, rows[len(rows) // 2][1], layout) if len(names) == 1 else ""
             hint = hint or titled_hint(rows, layout)
             problem = f"{len(row)} cells, but the table has {len(names)} columns{hint or above_hint(whole, layout)}"
-            raise BadInput(problem, f"{path}, line {line}", allowed="" if hint else ROWS_ALIKE)
+            raise BadInput(problem, file=f"{path}, line {line}", allowed="" if hint else ROWS_ALIKE)
     columns = {name: _numbers([row[place] for _, row in rows], layout.decimal) for place, name in enumerate(names)}
     odd: dict[str, Cell] = {}
     worded: dict[str, Cell] = {}

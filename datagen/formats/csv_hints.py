@@ -42,7 +42,7 @@ def refuse_split_numbers(path: Path, line: int, row: list[str], layout: CsvLayou
             raise BadInput(
                 "these commas seem to be decimal signs"
                 f'; did you mean csv = {{delimiter = {json.dumps(sign)}, decimal = ","}}?',
-                f"{path}, line {line}", "csv.delimiter", ",",
+                file=f"{path}, line {line}", field="csv.delimiter", value=",",
             )  # fmt: skip
 
 
@@ -58,9 +58,12 @@ def refuse_halves(path: Path, layout: CsvLayout) -> None:
     fractions = list(zip(*cells, strict=True))[1::2]
     if all(column[0].isdigit() and any(map(FRACTION.fullmatch, column)) for column in fractions):
         raise BadInput(
-            f"these commas seem to be decimal signs{ONE_COLUMN if width == 2 else ''}", f"{path}, line {rows[0][0]}",
-            "csv.delimiter", ",", "" if width == 2 else "another delimiter than the decimal sign, in the file itself",
-        )  # fmt: skip
+            f"these commas seem to be decimal signs{ONE_COLUMN if width == 2 else ''}",
+            file=f"{path}, line {rows[0][0]}",
+            field="csv.delimiter",
+            value=",",
+            allowed="" if width == 2 else "another delimiter than the decimal sign, in the file itself",
+        )
 
 
 def cells_hint(rows: list[Row], columns: dict[str, Array], odd: dict[str, tuple[int, str]], layout: CsvLayout) -> str:

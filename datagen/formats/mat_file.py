@@ -44,7 +44,7 @@ def _read_old(path: Path) -> Arrays:
     try:
         content = scipy.io.loadmat(path)
     except Exception as problem:  # scipy raises whatever the damaged bytes lead it to
-        raise BadInput(f"cannot be read as a .mat file: {problem}", str(path)) from None
+        raise BadInput(f"cannot be read as a .mat file: {problem}", file=str(path)) from None
     found = NumericVariables()
     for name, value in content.items():
         if not name.startswith("__"):
@@ -75,7 +75,7 @@ def _read_hdf5(path: Path) -> Arrays:
             return _sorted_out(_of_group(file, ""))
     except Exception as problem:  # h5py too
         raise BadInput(
-            f"cannot be read as a .mat file of version 7.3: {problem}; save it in MATLAB with -v7", str(path)
+            f"cannot be read as a .mat file of version 7.3: {problem}; save it in MATLAB with -v7", file=str(path)
         ) from None
 
 

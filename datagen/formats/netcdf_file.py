@@ -49,7 +49,7 @@ class _Variables(ReadWhenAsked):
                     return _attribute(held, attribute)
                 values = held[...]
         except Exception as problem:  # whatever the damaged bytes lead the library to
-            raise BadInput(f"its variable {name} cannot be read: {problem}", str(self.path)) from None
+            raise BadInput(f"its variable {name} cannot be read: {problem}", file=str(self.path)) from None
         masked = np.ma.isMaskedArray(values) and np.ma.is_masked(values)
         return values.astype(np.float64).filled(np.nan) if masked else np.asarray(values)
 
@@ -88,7 +88,7 @@ def read_netcdf(path: Path) -> Arrays:
     try:
         return _Variables(path)
     except Exception as problem:  # as above
-        raise BadInput(f"cannot be read as a netCDF file: {problem}", str(path)) from None
+        raise BadInput(f"cannot be read as a netCDF file: {problem}", file=str(path)) from None
 
 
 def _check_whole(path: Path) -> None:
@@ -97,7 +97,7 @@ def _check_whole(path: Path) -> None:
         kind = file.read(4)
     if kind == LARGE:
         raise BadInput(
-            "whether a netCDF-3 file of 64-bit data (CDF-5) is whole cannot be told", str(path),
+            "whether a netCDF-3 file of 64-bit data (CDF-5) is whole cannot be told", file=str(path),
             allowed="netCDF-4, as `nccopy -k nc4 OLD NEW` makes of it",
         )  # fmt: skip
     if kind not in CLASSIC:
@@ -107,6 +107,6 @@ def _check_whole(path: Path) -> None:
     try:
         netcdf_file(path, mmap=False).close()
     except ValueError:
-        raise BadInput("the file is cut off: it is shorter than its variables", str(path)) from None
+        raise BadInput("the file is cut off: it is shorter than its variables", file=str(path)) from None
     except Exception:  # scipy cannot read it; whether the netCDF library can is seen later
         return

@@ -25,14 +25,14 @@ class _Members(ReadWhenAsked):
         except Exception as problem:  # whatever the damaged bytes lead NumPy and zlib to
             if "allow_pickle" in str(problem):  # NumPy would have its own switch set, with which a file runs programs
                 raise _of_objects(f"its array {name}", self.path) from None
-            raise BadInput(f"its array {name} cannot be read: {problem}", str(self.path)) from None
+            raise BadInput(f"its array {name} cannot be read: {problem}", file=str(self.path)) from None
         numbers = as_numbers(value)
         return value if numbers is None else numbers
 
 
 def _of_objects(what: str, path: Path) -> BadInput:
     return BadInput(
-        f"{what} holds Python objects, which are not read", str(path),
+        f"{what} holds Python objects, which are not read", file=str(path),
         allowed="arrays of numbers, one for each channel or recording",
     )  # fmt: skip
 
@@ -42,7 +42,7 @@ def read_npz(path: Path) -> Arrays:
     try:
         return _Members(path)
     except Exception as problem:  # as above
-        raise BadInput(f"cannot be read as an .npz file: {problem}", str(path)) from None
+        raise BadInput(f"cannot be read as an .npz file: {problem}", file=str(path)) from None
 
 
 def read_npy(path: Path) -> Arrays:
@@ -52,7 +52,7 @@ def read_npy(path: Path) -> Arrays:
     except Exception as problem:  # as above
         if "Python objects" in str(problem):
             raise _of_objects("it", path) from None
-        raise BadInput(f"cannot be read as an .npy file: {problem}", str(path)) from None
+        raise BadInput(f"cannot be read as an .npy file: {problem}", file=str(path)) from None
     found = NumericVariables()
     if array.dtype.names is None:
         found.add(ONLY_NAME, array)

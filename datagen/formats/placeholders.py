@@ -19,7 +19,7 @@ def filled(text: str, path: Path, field: str, more: Mapping[str, str] | None = N
     They are the file's name without its ending, the first whole number in it, and the name of the folder it lies in.
     """
     if any(WIDE.search(part or "") for _, _, part, _ in _parts(text)):
-        raise BadInput("a width in braces", str(path), field, text, "at most 999 characters")
+        raise BadInput("a width in braces", file=str(path), field=field, value=text, allowed="at most 999 characters")
     number = re.search(r"\d+", path.stem)
     values: dict[str, str | int] = {"stem": without_ending(path), "number": int(number.group()) if number else ""}
     values |= {"folder": path.parent.name, **(more or {})}
@@ -29,7 +29,7 @@ def filled(text: str, path: Path, field: str, more: Mapping[str, str] | None = N
         nameless = "{number" in text and number is None
         problem = "cannot be filled in for this file" + (", whose name contains no number" if nameless else "")
         allowed = ", ".join(f"{{{name}}}" for name in values) + ", as in X{number:03}_DE_time"
-        raise BadInput(problem, str(path), field, text, allowed) from None
+        raise BadInput(problem, file=str(path), field=field, value=text, allowed=allowed) from None
 
 
 def _parts(text: str) -> list[tuple[str, str | None, str | None, str | None]]:

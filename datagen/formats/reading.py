@@ -41,11 +41,13 @@ def file_format(path: Path, stated: str | None) -> str:
         ending = inner
     if ending in PACKED and stated is None:
         known = f"the file unpacked, of a known format ({', '.join(FORMATS)}); only tables of text may stay .{GZIP}"
-        raise BadInput("is packed", str(path), allowed=known)
+        raise BadInput("is packed", file=str(path), allowed=known)
     kind = stated or ENDINGS.get(ending, ending)
     if kind not in FORMATS:
         problem, allowed = "the file's name does not end like that of a known format", ", ".join(FORMATS)
-        raise BadInput(problem, str(path), "format", ending, f"{allowed}; csv is any table of text")
+        raise BadInput(
+            problem, file=str(path), field="format", value=ending, allowed=f"{allowed}; csv is any table of text"
+        )
     return kind
 
 
@@ -53,7 +55,9 @@ def _refuse_pointer(path: Path) -> None:
     with path.open("rb") as file:
         if file.read(len(POINTER)) == POINTER:
             raise BadInput(
-                "holds no data but where Git LFS keeps it", str(path), allowed="the data, as `git lfs pull` fetches it"
+                "holds no data but where Git LFS keeps it",
+                file=str(path),
+                allowed="the data, as `git lfs pull` fetches it",
             )
 
 
@@ -64,6 +68,6 @@ def read_arrays(path: Path, stated: str | None, layout: CsvLayout) -> Arrays:
         _refuse_pointer(path)
         return read_csv(path, layout) if kind == "csv" else READERS[kind](path)
     except FileNotFoundError:
-        raise BadInput("no such file", str(path)) from None
+        raise BadInput("no such file", file=str(path)) from None
     except OSError as problem:
-        raise BadInput(f"cannot be read: {problem.strerror or problem}", str(path)) from None
+        raise BadInput(f"cannot be read: {problem.strerror or problem}", file=str(path)) from None

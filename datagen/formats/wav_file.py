@@ -35,11 +35,11 @@ def read_wav(path: Path) -> WaveArrays:
             rate, samples = wavfile.read(path)
     except Exception as problem:  # whatever the damaged bytes lead scipy to
         raise BadInput(
-            f"cannot be read as a wave file: {problem}", str(path), allowed="linear PCM of 8 to 64 bits, or floats"
+            f"cannot be read as a wave file: {problem}", file=str(path), allowed="linear PCM of 8 to 64 bits, or floats"
         ) from None
     early = next((str(warning.message) for warning in caught if EARLY_END in str(warning.message)), "")
     if early:
-        raise BadInput(f"the file is cut off: {early}", str(path))
+        raise BadInput(f"the file is cut off: {early}", file=str(path))
     return WaveArrays(np.asarray(samples), float(rate))
 
 

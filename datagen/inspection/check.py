@@ -57,7 +57,7 @@ def check_corpus(folder: str | Path, remake: int = 0) -> Verdict:
     folder = from_home(folder)
     manifest = read_manifest(folder)
     if manifest.identity.format_hash != format_hash():
-        raise BadInput(f"written in another version of the format than this program's ({FORMAT})", str(folder))
+        raise BadInput(f"written in another version of the format than this program's ({FORMAT})", file=str(folder))
     parts, found = read_parts(folder, manifest)
     found += _wrong_shards(parts) + _wrong_between_shards(parts)
     again = {} if found.problems else _made_again(parts, remake)

@@ -35,4 +35,6 @@ def write_line(folder: Path, said: dict[str, Any]) -> None:
 def no_log(folder: Path, reason: str = "") -> BadInput:
     """The error if the log of a corpus cannot be written, as in a read-only folder."""
     problem = f"runs on recordings are logged here, and it cannot be written{reason}"
-    return BadInput(problem, str(log_path(folder)), allowed="a corpus that can be written to, such as a copy of it")
+    return BadInput(
+        problem, file=str(log_path(folder)), allowed="a corpus that can be written to, such as a copy of it"
+    )

@@ -18,4 +18,4 @@ def require_split(folder: Path, present: Iterable[str], asked: str) -> None:
     there = set(present)
     if asked != ALL and asked not in there:
         allowed = ", ".join([ALL, *(name for name in SPLITS if name in there)])
-        raise BadInput("no records of this split", str(folder), "--split", asked, allowed)
+        raise BadInput("no records of this split", file=str(folder), field="--split", value=asked, allowed=allowed)

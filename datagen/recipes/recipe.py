@@ -163,7 +163,7 @@ class Recipe(Table):
     def require(self, record: int, asked_by: str = "record") -> None:
         """Raise BadInput, with `asked_by` as its field, if there is no such `record`."""
         if not 0 <= record < self.count:
-            raise BadInput("", self.source, asked_by, record, f"0 to {self.count - 1}")
+            raise BadInput(file=self.source, field=asked_by, value=record, allowed=f"0 to {self.count - 1}")
 
     def place(self, record: int) -> Place:
         """Where `record` (0 ≤ record < count) stands in the corpus."""
@@ -178,7 +178,7 @@ def load_recipe(path_or_name: str | Path) -> Recipe:
     content, text = read_toml(path)
     if "recording" in content and "part" not in content:
         problem = "this is a SPEC of recordings, which `spallgen import` brings in, and no recipe"
-        raise BadInput(problem, str(path), "recording", allowed="[[part]]")
+        raise BadInput(problem, file=str(path), field="recording", allowed="[[part]]")
     return parse_recipe(content, path, text)
 
 

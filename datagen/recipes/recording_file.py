@@ -32,7 +32,7 @@ def read_background(path: Path, channels: tuple[str, ...] | None, layout: CsvLay
     Raises BadInput if the file cannot be read, is no table of numbers, or holds a number that is not finite.
     """
     if not path.is_file():
-        raise BadInput(no_file(path), str(path), "file")
+        raise BadInput(no_file(path), file=str(path), field="file")
     arrays = read_arrays(path, None, layout)
     rate = _rate(arrays[RATE_NAME], path) if RATE_NAME in arrays else None
     table = _named(arrays, channels, path) if channels else _only(arrays, path)
@@ -40,7 +40,10 @@ def read_background(path: Path, channels: tuple[str, ...] | None, layout: CsvLay
         raise _no_table(path)
     if table.shape[1] > MOST_CHANNELS:
         raise BadInput(
-            f"it has {table.shape[1]} columns", str(path), "channels", allowed='one or two, as in "data[:,0]"'
+            f"it has {table.shape[1]} columns",
+            file=str(path),
+            field="channels",
+            allowed='one or two, as in "data[:,0]"',
         )
     return RecordingFile(_finite(table, path), rate)
 
@@ -48,14 +51,16 @@ def read_background(path: Path, channels: tuple[str, ...] | None, layout: CsvLay
 def _rate(said: NDArray[np.generic], path: Path) -> float:
     if said.size != 1 or said.dtype.kind not in "iuf":
         number = f"{said.size} values" if said.dtype.kind in "iuf" else "no number"
-        raise BadInput(f"it holds {number}", str(path), RATE_NAME, allowed="one number, the sampling rate in Hz")
+        raise BadInput(
+            f"it holds {number}", file=str(path), field=RATE_NAME, allowed="one number, the sampling rate in Hz"
+        )
     return float(said.reshape(()))
 
 
 def _named(arrays: Arrays, channels: tuple[str, ...], path: Path) -> NDArray[np.generic]:
     found = [choose(arrays, wish, path, "channels") for wish in channels]
     if len({axis.shape for axis in found}) > 1 or any(axis.ndim != 1 for axis in found if len(found) > 1):
-        raise BadInput("the two channels are not equally long", str(path), "channels", list(channels))
+        raise BadInput("the two channels are not equally long", file=str(path), field="channels", value=list(channels))
     return np.stack(found, axis=1) if found[0].ndim == 1 else found[0]
 
 
@@ -64,13 +69,15 @@ def _only(arrays: Arrays, path: Path) -> NDArray[np.generic]:
     if not names:
         raise _no_table(path)
     if len(names) != 1:
-        raise BadInput(f"it has {len(names)} variables", str(path), "channels", allowed=f"one or two of {names}")
+        raise BadInput(
+            f"it has {len(names)} variables", file=str(path), field="channels", allowed=f"one or two of {names}"
+        )
     found = np.asarray(arrays[names[0]])
     return found[:, None] if found.ndim == 1 else found
 
 
 def _no_table(path: Path) -> BadInput:
-    return BadInput("no table of numbers, samples along its first dimension", str(path), "file")
+    return BadInput("no table of numbers, samples along its first dimension", file=str(path), field="file")
 
 
 def _finite(table: NDArray[np.generic], path: Path) -> NDArray[np.float32]:
@@ -81,5 +88,5 @@ def _finite(table: NDArray[np.generic], path: Path) -> NDArray[np.float32]:
         first = int(np.flatnonzero(bad)[0])
         found = "NaN" if np.isnan(rounded[first]).any() else "a number that is not finite"
         problem = f"it holds {found} at sample {first} ({int(bad.sum())} such of {bad.size} samples)"
-        raise BadInput(problem, str(path), "file", path.name, "finite numbers")
+        raise BadInput(problem, file=str(path), field="file", value=path.name, allowed="finite numbers")
     return rounded

@@ -103,5 +103,5 @@ def _loaded(path: str, sha256: str, channels: tuple[str, ...] | None, layout: Cs
     """The recording (N, C) in the file with these bytes; BadInput if it has others by now."""
     samples, found = read_background(Path(path), channels, layout).samples, file_hash(Path(path))
     if found != sha256:
-        raise BadInput("the recording has changed since the recipe was read", path, "sha256", found)
+        raise BadInput("the recording has changed since the recipe was read", file=path, field="sha256", value=found)
     return samples

@@ -45,7 +45,9 @@ def require_sampled_fast_enough(recipe: Recipe, path: Path, text: str) -> None:
     refusal = next(_refusals(recipe), None)
     if refusal is not None:
         location, problem, value, allowed = refusal
-        raise BadInput(problem, at_line(path, line_of(text, location)), dotted(location), value, allowed)
+        raise BadInput(
+            problem, file=at_line(path, line_of(text, location)), field=dotted(location), value=value, allowed=allowed
+        )
 
 
 def _refusals(recipe: Recipe) -> Iterator[Refusal]:

@@ -61,7 +61,7 @@ def stated_bearing(source: Source) -> Bearing | None:
         return None if said is None else catalogue_bearing(said)
     except InvalidParameter as problem:
         instead = "" if isinstance(said, BearingNumbers) else NUMBERS
-        raise BadInput(str(problem), source.request.place, "bearing", allowed=instead) from None
+        raise BadInput(str(problem), file=source.request.place, field="bearing", allowed=instead) from None
 
 
 def contact_numbers(source: Source) -> dict[str, float]:
@@ -92,7 +92,9 @@ def _bearing_labels(source: Source, bearing: Bearing | None) -> dict[str, Any]:
         _check_orders(source, stated)
         return stated
     if stated:
-        raise BadInput("it already follows from the bearing's geometry", source.request.place, next(iter(stated)))
+        raise BadInput(
+            "it already follows from the bearing's geometry", file=source.request.place, field=next(iter(stated))
+        )
     names = ("balls", "rows", "pitch_diameter", "ball_diameter", "contact_angle", *ORDERS)
     return {"bearing": bearing.name} | {name: getattr(bearing, name) for name in names}
 
@@ -106,14 +108,20 @@ def _check_orders(source: Source, stated: dict[str, float]) -> None:
     balls = outer + inner
     if outer >= inner or MOST_BALLS < balls < math.inf:
         raise BadInput(
-            f"with bpfi = {inner:g} it would mean a bearing with {balls:g} balls", source.request.place, "bpfo", outer,
-            f"orders of the shaft, bpfo below bpfi; their sum is the number of balls, at most {MOST_BALLS}",
-        )  # fmt: skip
+            f"with bpfi = {inner:g} it would mean a bearing with {balls:g} balls",
+            file=source.request.place,
+            field="bpfo",
+            value=outer,
+            allowed=f"orders of the shaft, bpfo below bpfi; their sum is the number of balls, at most {MOST_BALLS}",
+        )
     if {"bpfo", "bpfi"} <= stated.keys() and abs(balls - round(balls)) > WHOLE_WITHIN:
         raise BadInput(
-            f"with bpfi = {inner:g} it would mean a bearing with {balls:g} balls", source.request.place, "bpfo", outer,
-            f"orders whose sum is the number of balls, within {WHOLE_WITHIN:g} of a whole number",
-        )  # fmt: skip
+            f"with bpfi = {inner:g} it would mean a bearing with {balls:g} balls",
+            file=source.request.place,
+            field="bpfo",
+            value=outer,
+            allowed=f"orders whose sum is the number of balls, within {WHOLE_WITHIN:g} of a whole number",
+        )
     _check_cage(source, stated)
 
 
@@ -123,9 +131,12 @@ def _check_single(source: Source, stated: dict[str, float]) -> None:
     name, fewest = ("bpfo", 2.0 * stated["bpfo"]) if "bpfo" in stated else ("bpfi", stated["bpfi"])
     if fewest > MOST_BALLS:
         raise BadInput(
-            f"it would mean a bearing with more than {fewest:g} balls", source.request.place, name, stated[name],
-            f"an order of the shaft, of a bearing with at most {MOST_BALLS} balls",
-        )  # fmt: skip
+            f"it would mean a bearing with more than {fewest:g} balls",
+            file=source.request.place,
+            field=name,
+            value=stated[name],
+            allowed=f"an order of the shaft, of a bearing with at most {MOST_BALLS} balls",
+        )
 
 
 def _check_cage(source: Source, stated: dict[str, float]) -> None:
@@ -136,9 +147,12 @@ def _check_cage(source: Source, stated: dict[str, float]) -> None:
     balls = max(1, round(outer + stated["bpfi"] if "bpfi" in stated else outer / cage))
     if abs(outer - balls * cage) > CAGE_WITHIN * outer:
         raise BadInput(
-            f"with bpfo = {outer:g} and {balls} balls it should be {outer / balls:.4g}", source.request.place, "ftf",
-            cage, f"bpfo over the number of balls, within {CAGE_WITHIN:.0%}",
-        )  # fmt: skip
+            f"with bpfo = {outer:g} and {balls} balls it should be {outer / balls:.4g}",
+            file=source.request.place,
+            field="ftf",
+            value=cage,
+            allowed=f"bpfo over the number of balls, within {CAGE_WITHIN:.0%}",
+        )
 
 
 def _defect_labels(source: Source, bearing: Bearing | None) -> dict[str, Any]:
@@ -148,8 +162,8 @@ def _defect_labels(source: Source, bearing: Bearing | None) -> dict[str, Any]:
     if healthy:
         if {location, condition} - {"none", HEALTHY, UNKNOWN} or sizes or source.setting("spalls", 0):
             raise BadInput(
-                "a healthy bearing has no defect", source.request.place, "location", location,
-                'location "none", condition "healthy" and no size',
+                "a healthy bearing has no defect", file=source.request.place, field="location", value=location,
+                allowed='location "none", condition "healthy" and no size',
             )  # fmt: skip
         return {"condition": HEALTHY, "location": "none", "spalls": 0} | NO_SPALL
     derived = UNKNOWN
@@ -158,7 +172,7 @@ def _defect_labels(source: Source, bearing: Bearing | None) -> dict[str, Any]:
     if condition not in (UNKNOWN, derived) and derived != UNKNOWN:
         raise BadInput(
             f"the defect covers {sizes['extent_spacing']:.3g} ball spacings, which makes it {derived}",
-            source.request.place, "condition", condition,
+            file=source.request.place, field="condition", value=condition,
         )  # fmt: skip
     count = source.setting("spalls")
     if count == 0:

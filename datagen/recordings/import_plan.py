@@ -74,8 +74,8 @@ class ImportPlan:
         name, where = record.labels["recording"], f"{request.name} ({request.place})"
         if name in self.names:
             raise BadInput(
-                f"this name is already taken by {self.names[name]}", request.place, "recording", name,
-                'a different name for each record, as in recording = "{path} {channel}"',
+                f"this name is already taken by {self.names[name]}", file=request.place, field="recording", value=name,
+                allowed='a different name for each record, as in recording = "{path} {channel}"',
             )  # fmt: skip
         self.names[name] = where
         if record.dead == record.axes:
@@ -85,8 +85,8 @@ class ImportPlan:
             return True
         if self.spec.same_samples == "refuse":
             raise BadInput(
-                f'record "{name}" has exactly the samples of "{twin}", {self.names[twin]}', str(request.path),
-                "same_samples", "refuse", '"skip", which leaves such repeats out, or "keep"',
+                f'record "{name}" has exactly the samples of "{twin}", {self.names[twin]}', file=str(request.path),
+                field="same_samples", value="refuse", allowed='"skip", which leaves such repeats out, or "keep"',
             )  # fmt: skip
         self.skipped.append(name)
         return False
@@ -95,7 +95,9 @@ class ImportPlan:
         bearing, split = record.labels["bearing_id"], record.labels["split"]
         if bearing != UNKNOWN and self.splits.setdefault(bearing, split) != split:
             problem = f"the records of bearing {bearing} would be in the splits {self.splits[bearing]} and {split}"
-            raise BadInput(problem, request.place, "split", split, "one split for each bearing")
+            raise BadInput(
+                problem, file=request.place, field="split", value=split, allowed="one split for each bearing"
+            )
 
     @cached_property
     def shards(self) -> list[list[PlannedRecord]]:

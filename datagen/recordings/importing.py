@@ -136,16 +136,18 @@ def _require_new(folder: Path) -> None:
     if folder.resolve().is_mount():
         raise BadInput(
             "an import puts a folder of its own in this place, and one that a file system is mounted on cannot be "
-            "replaced", str(folder), OUT, allowed="a folder in it, or another one, new or empty",
+            "replaced", file=str(folder), field=OUT, allowed="a folder in it, or another one, new or empty",
         )  # fmt: skip
     if folder.exists() and os.path.samefile(folder, "."):
         raise BadInput(
-            "an import puts a folder of its own in this place, and the current one cannot be replaced", str(folder),
-            OUT, allowed="another folder, new or empty",
-        )  # fmt: skip
+            "an import puts a folder of its own in this place, and the current one cannot be replaced",
+            file=str(folder),
+            field=OUT,
+            allowed="another folder, new or empty",
+        )
     if folder.exists() and any(folder.iterdir()):
         raise BadInput(
-            "this folder is not empty, and an import never adds to what is there", str(folder), OUT,
+            "this folder is not empty, and an import never adds to what is there", file=str(folder), field=OUT,
             allowed="a new or an empty folder",
         )  # fmt: skip
 
@@ -169,7 +171,7 @@ def _read_again(shard: list[PlannedRecord]) -> Iterator[Recorded]:
         for piece, record in enumerate(read_recording(request, band)):
             if piece in pieces:
                 if record.content != pieces[piece].content:
-                    raise BadInput("the file changed while it was being imported", str(request.path))
+                    raise BadInput("the file changed while it was being imported", file=str(request.path))
                 yield record
 
 

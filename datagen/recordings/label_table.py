@@ -46,9 +46,9 @@ def read_label_table(path: Path, note_columns: tuple[str, ...]) -> list[TableRow
         delimiter = _delimiter(path)
         rows = [(line, cells) for line, cells in read_csv_rows(path, delimiter) if any(map(str.strip, cells))]
     except OSError as problem:
-        raise BadInput(f"cannot be read: {problem.strerror}", str(path)) from None
+        raise BadInput(f"cannot be read: {problem.strerror}", file=str(path)) from None
     if len(rows) < 2:
-        raise BadInput("the table has no rows", str(path))
+        raise BadInput("the table has no rows", file=str(path))
     first, heads = rows[0]
     header = [cell.strip() for cell in heads]
     _check_header(header, note_columns, f"{path}, line {first}")
@@ -75,12 +75,12 @@ def _check_header(header: list[str], note_columns: tuple[str, ...], place: str) 
     for column in header:
         if column not in known:
             hint = f"unknown column{suggestion(column, known)}; list it in note_columns to keep it as a note"
-            raise BadInput(hint, place, column, allowed=", ".join(known))
+            raise BadInput(hint, file=place, field=column, allowed=", ".join(known))
         if header.count(column) > 1:
-            raise BadInput("this column occurs twice", place, column)
+            raise BadInput("this column occurs twice", file=place, field=column)
     for column in (FILE_COLUMN, *note_columns):
         if column not in header:
-            raise BadInput("this column is missing", place, column)
+            raise BadInput("this column is missing", file=place, field=column)
 
 
 def _refuse_two_decimals(header: list[str], rows: list[Row], path: Path) -> None:
@@ -91,17 +91,23 @@ def _refuse_two_decimals(header: list[str], rows: list[Row], path: Path) -> None
     if odd and any(WITH_POINT.fullmatch(cell) for _, _, cell in told):
         line, name, cell = odd
         problem = "other numbers of this table have a point as decimal sign"
-        raise BadInput(problem, f"{path}, line {line}", name, cell, "numbers without signs between thousands")
+        raise BadInput(
+            problem,
+            file=f"{path}, line {line}",
+            field=name,
+            value=cell,
+            allowed="numbers without signs between thousands",
+        )
 
 
 def _row(header: list[str], cells: list[str], note_columns: tuple[str, ...], place: str, decimal: str) -> TableRow:
     if len(cells) != len(header):
-        raise BadInput(f"{len(cells)} cells, but the table has {len(header)} columns", place)
+        raise BadInput(f"{len(cells)} cells, but the table has {len(header)} columns", file=place)
     said = {name: cell.strip() for name, cell in zip(header, cells, strict=True) if cell.strip()}
     named = said.pop(FILE_COLUMN, "").replace("\\", "/")
     files = tuple(name.strip() for name in named.split("|") if name.strip())
     if not files:
-        raise BadInput("this cell is empty", place, FILE_COLUMN)
+        raise BadInput("this cell is empty", file=place, field=FILE_COLUMN)
     notes: dict[str, Any] = {name: _plain(said.pop(name), decimal) for name in note_columns if name in said}
     settings = {name: _setting(name, cell, decimal) for name, cell in said.items()}
     try:

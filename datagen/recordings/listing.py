@@ -44,7 +44,13 @@ class Listing:
 def list_requests(spec: Spec, root: Path) -> Listing:
     """Every record that the SPEC asks for below `root`; raises BadInput."""
     if not root.is_dir():
-        raise BadInput("no such folder", str(spec.source), "root", str(root), "the folder of the recordings")
+        raise BadInput(
+            "no such folder",
+            file=str(spec.source),
+            field="root",
+            value=str(root),
+            allowed="the folder of the recordings",
+        )
     folder = Root(root)
     requests: list[Request] = []
     tables: dict[str, Path] = {}
@@ -57,7 +63,9 @@ def list_requests(spec: Spec, root: Path) -> Listing:
         absent += found.absent
     if not requests:
         problem = f"none of its files is below {root}, or all are left out"
-        raise BadInput(problem, str(spec.source), "recording", allowed="files of which one at least is there")
+        raise BadInput(
+            problem, file=str(spec.source), field="recording", allowed="files of which one at least is there"
+        )
     return Listing(tuple(requests), tables, tuple(absent))
 
 
@@ -83,7 +91,9 @@ def _require_text(path: Path, place: str) -> None:
     name = str(path)
     shown = name.encode("utf-8", "backslashreplace").decode()
     if shown != name:
-        raise BadInput("the name of this file is not UTF-8", place, "file", shown, "the file renamed")
+        raise BadInput(
+            "the name of this file is not UTF-8", file=place, field="file", value=shown, allowed="the file renamed"
+        )
 
 
 def _refuse_two_speeds(settings: dict[str, Any], row: TableRow) -> None:
@@ -92,8 +102,8 @@ def _refuse_two_speeds(settings: dict[str, Any], row: TableRow) -> None:
     if before and now:
         raise BadInput(
             f"two sources for the speed: the SPEC also states {before[0]}",
-            row.place,
-            now[0],
+            file=row.place,
+            field=now[0],
             allowed="only one of them",
         )
 
@@ -103,10 +113,10 @@ def _channels(settings: dict[str, Any], place: str) -> tuple[Channel, ...]:
     if not channels:
         if "x" not in settings and "y" not in settings:
             allowed = "the name of the variable that holds the samples"
-            raise BadInput("this setting is missing", place, "y", allowed=allowed)
+            raise BadInput("this setting is missing", file=place, field="y", allowed=allowed)
         channels = (Channel(name=settings.get("channel_name", ""), x=settings.get("x"), y=settings.get("y")),)
     for channel in channels:
         if channel.x == channel.y:
             problem, allowed = "is the variable of the axis x too", "another one; of a sensor with one axis y alone"
-            raise BadInput(problem, place, "y", channel.y, allowed)
+            raise BadInput(problem, file=place, field="y", value=channel.y, allowed=allowed)
     return channels

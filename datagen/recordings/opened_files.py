@@ -38,7 +38,7 @@ def source_hash(path: Path) -> str:
     try:
         return file_hash(path)
     except OSError as problem:
-        raise BadInput(f"cannot be read: {problem.strerror}", str(path)) from None
+        raise BadInput(f"cannot be read: {problem.strerror}", file=str(path)) from None
 
 
 REMEMBERED = (_opened, source_hash, first_state)

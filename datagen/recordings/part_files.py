@@ -55,7 +55,7 @@ class PartFiles:
         path = next((path for path in places if os.path.isfile(path)), None)
         if path is None:
             told = no_file(next(filter(os.path.exists, places), places[0]))
-            raise BadInput(told, str(self.spec), "table", name)
+            raise BadInput(told, file=str(self.spec), field="table", value=name)
         require_unchanged(path)
         return path
 
@@ -81,7 +81,9 @@ class PartFiles:
             fitting = self.root.below.fitting(name)
             if len(fitting) > 1:
                 known = ", ".join(self.root.name(path) for path in fitting[:MOST_NAMED])
-                raise BadInput(f"{len(fitting)} files below {folder} match: {known}", row.place, "file", name)
+                raise BadInput(
+                    f"{len(fitting)} files below {folder} match: {known}", file=row.place, field="file", value=name
+                )
             if fitting:
                 return fitting[0]
         return None
@@ -92,7 +94,7 @@ class PartFiles:
             folder = self.root.folder
             there = any(os.path.isdir(folder / name) for name in row.files)
             told = f"this is a folder below {folder}" if there else f"no such file below {folder}"
-            raise BadInput(told, row.place, "file", "|".join(row.files))
+            raise BadInput(told, file=row.place, field="file", value="|".join(row.files))
         return row.files[0]
 
     def _globbed_files(self, rows: list[TableRow]) -> tuple[list[tuple[Path, TableRow | None]], list[str]]:
@@ -105,7 +107,7 @@ class PartFiles:
             if path not in said:
                 problem = f"{self.root.name(path)} is not in the table {self.recording.table}"
                 allowed = "a row for each file that files finds, its cells empty where nothing is known, or leave_out"
-                raise BadInput(problem, self.place, allowed=allowed)
+                raise BadInput(problem, file=self.place, allowed=allowed)
         return [(path, row) for path in paths for row in said[path]], absent + list(map(self._absent, idle))
 
     def _rows_of(self, paths: list[Path], rows: list[TableRow]) -> tuple[dict[Path, list[TableRow]], list[TableRow]]:
@@ -135,8 +137,8 @@ class PartFiles:
         if dead and self._refuses:
             raise BadInput(
                 f"{len(dead)} of {len(wanted)} files are links to what is not there: {self.root.some(dead)}",
-                self.place, "files", " ".join(self.recording.patterns),
-                'the files themselves, or absent_files = "skip"',
+                file=self.place, field="files", value=" ".join(self.recording.patterns),
+                allowed='the files themselves, or absent_files = "skip"',
             )  # fmt: skip
         return [path for path in wanted if path.exists()], absent + list(map(self.root.name, dead))
 
@@ -156,15 +158,21 @@ class PartFiles:
         problem = f"no file below {self.root.folder} matches"
         if any(path.is_dir() for path in found):
             allowed = 'the files in it, as in "folder/*.mat"'
-            return BadInput(f"{problem}, but a folder", self.place, "files", pattern, allowed)
-        return BadInput(problem, self.place, "files", pattern)
+            return BadInput(f"{problem}, but a folder", file=self.place, field="files", value=pattern, allowed=allowed)
+        return BadInput(problem, file=self.place, field="files", value=pattern)
 
     def _wanted(self, paths: list[Path]) -> list[Path]:
         """The paths without those that are to be left out."""
         for pattern in self.recording.unwanted:
             kept = [path for path in paths if not self.root.fits(path, pattern)]
             if len(kept) == len(paths) and self._refuses:
-                raise BadInput("matches none of the files", self.place, "leave_out", pattern, self.root.some(paths))
+                raise BadInput(
+                    "matches none of the files",
+                    file=self.place,
+                    field="leave_out",
+                    value=pattern,
+                    allowed=self.root.some(paths),
+                )
             paths = kept
         return paths
 
@@ -173,9 +181,12 @@ class PartFiles:
             for pattern in override.patterns:
                 if not any(self.root.fits(path, pattern) for path in paths):
                     raise BadInput(
-                        "matches none of these recordings", f"{self.place}, override[{number}]", "files", pattern,
-                        f'{self.root.some(paths)}; with absent_files = "skip" there may be none',
-                    )  # fmt: skip
+                        "matches none of these recordings",
+                        file=f"{self.place}, override[{number}]",
+                        field="files",
+                        value=pattern,
+                        allowed=f'{self.root.some(paths)}; with absent_files = "skip" there may be none',
+                    )
 
 
 def _leads_nowhere(path: Path) -> bool:

@@ -31,8 +31,8 @@ def _listed(source: Source, tach: Tach, duration: float) -> Array:
     if said.size and not ((times >= 0.0) & (times <= duration)).any():
         raise BadInput(
             f"its pulses are from {times[0]:.4g} to {times[-1]:.4g} s after the first sample, and the vibration lasts "
-            f"{duration:.4g} s", str(source.path), "tach.variable", tach.variable,
-            "times in s by the clock of the vibration; tach.factor brings others to s",
+            f"{duration:.4g} s", file=str(source.path), field="tach.variable", value=tach.variable,
+            allowed="times in s by the clock of the vibration; tach.factor brings others to s",
         )  # fmt: skip
     return times
 
@@ -42,10 +42,13 @@ def _risen(source: Source, tach: Tach, rate: float, size: int) -> Array:
     pulses = source.array(tach.variable, "tach.variable")
     if tach.rate_hz is None and pulses.size != size:
         raise BadInput(
-            f"holds {pulses.size} samples, the vibration {size}", str(source.path), "tach.variable", tach.variable,
-            "equally many, or the sampling rate of the pulses in tach.rate_hz, or tach.times = true if these are the "
-            "times of pulses",
-        )  # fmt: skip
+            f"holds {pulses.size} samples, the vibration {size}",
+            file=str(source.path),
+            field="tach.variable",
+            value=tach.variable,
+            allowed="equally many, or the sampling rate of the pulses in tach.rate_hz, or tach.times = true if these "
+            "are the times of pulses",
+        )
     if tach.rate_hz is not None:
         _require_as_long(source, tach.rate_hz, pulses.size, size / rate)
     return rising_edges(pulses, tach.threshold) / (tach.rate_hz or rate)
@@ -57,6 +60,9 @@ def _require_as_long(source: Source, rate: float, size: int, duration: float) ->
     lasts = size / rate
     if abs(lasts - duration) > LASTS_WITHIN * duration:
         raise BadInput(
-            f"its {size} samples then last {lasts:.4g} s, the vibration {duration:.4g} s", str(source.path),
-            "tach.rate_hz", rate, f"a rate at which both last equally long, within {LASTS_WITHIN:.0%}",
-        )  # fmt: skip
+            f"its {size} samples then last {lasts:.4g} s, the vibration {duration:.4g} s",
+            file=str(source.path),
+            field="tach.rate_hz",
+            value=rate,
+            allowed=f"a rate at which both last equally long, within {LASTS_WITHIN:.0%}",
+        )

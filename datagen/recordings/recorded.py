@@ -144,13 +144,25 @@ def _rate(source: Source) -> float:
     if file_format(source.path, source.setting("format")) == "wav":
         held = float(source.arrays[RATE_NAME])
         if stated not in (None, held):
-            raise BadInput("the file states another rate", str(source.path), "rate_hz", stated, f"{held:g}")
+            raise BadInput(
+                "the file states another rate",
+                file=str(source.path),
+                field="rate_hz",
+                value=stated,
+                allowed=f"{held:g}",
+            )
         if not in_range("rate_hz", held):
-            raise BadInput("the file's own", str(source.path), "rate_hz", held, RANGES["rate_hz"].allowed())
+            raise BadInput(
+                "the file's own",
+                file=str(source.path),
+                field="rate_hz",
+                value=held,
+                allowed=RANGES["rate_hz"].allowed(),
+            )
         return held
     if stated is None:
         raise BadInput(
-            "the sampling rate is not given", source.request.place, "rate_hz",
+            "the sampling rate is not given", file=source.request.place, field="rate_hz",
             allowed=f'{RANGES["rate_hz"].allowed()}, or {{variable = "NAME"}}',
         )  # fmt: skip
     return stated
@@ -161,7 +173,7 @@ def _samples(source: Source, axes: tuple[str, ...]) -> NDArray[np.float64]:
     columns = [source.array(getattr(source.request.channel, axis), axis, foretold) for axis in axes]
     if len({column.size for column in columns}) > 1:
         sizes = " and ".join(str(column.size) for column in columns)
-        raise BadInput(f"the axes differ in length: {sizes} samples", str(source.path), "x, y")
+        raise BadInput(f"the axes differ in length: {sizes} samples", file=str(source.path), field="x, y")
     return np.stack(columns, axis=1)
 
 
@@ -176,7 +188,9 @@ def _filled(source: Source, axes: tuple[str, ...]) -> int:
 def _scale(source: Source) -> float:
     unit = source.setting("unit")
     if unit is None:
-        raise BadInput("the unit of the samples is not given", source.request.place, "unit", allowed=", ".join(UNITS))
+        raise BadInput(
+            "the unit of the samples is not given", file=source.request.place, field="unit", allowed=", ".join(UNITS)
+        )
     scale = source.number("scale")
     if scale == 0.0:
         told_by = str(source.path) if isinstance(source.setting("scale"), FromVariable) else source.request.place
@@ -191,9 +205,12 @@ def _accelerations(counts: NDArray[np.float64], factor: float, source: Source) -
     largest = float(np.abs(scaled).max())
     if not largest <= LARGEST_ACCELERATION:
         raise BadInput(
-            f"the largest sample would be {largest:.3g} m/s²", str(source.path), "scale", source.number("scale") or 1.0,
-            f"samples up to {LARGEST_ACCELERATION:g} m/s²",
-        )  # fmt: skip
+            f"the largest sample would be {largest:.3g} m/s²",
+            file=str(source.path),
+            field="scale",
+            value=source.number("scale") or 1.0,
+            allowed=f"samples up to {LARGEST_ACCELERATION:g} m/s²",
+        )
     return scaled.astype(np.float32)
 
 
@@ -213,8 +230,11 @@ def _band(source: Source, rate: float, samples: int, signal: NDArray[np.float64]
         apart = rate / samples
         raise BadInput(
             f"contains no line ({apart:g} Hz apart) of the spectrum of {source.path.name} ({samples} samples)",
-            source.request.place, "envelope_band_hz", list(stated), f"a band at least {apart:g} Hz wide",
-        )  # fmt: skip
+            file=source.request.place,
+            field="envelope_band_hz",
+            value=list(stated),
+            allowed=f"a band at least {apart:g} Hz wide",
+        )
     return low, high
 
 

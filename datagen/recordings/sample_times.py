@@ -29,12 +29,22 @@ def rate_of(times: NDArray[np.float64], path: Path, wish: str) -> float:
         beside = float(np.abs(times - times[0] - step * np.arange(times.size)).max())
         if beside > max(2.0 * abs(step), ROUNDING * abs(step) * times.size):
             raise BadInput(
-                "these times are not evenly spaced", str(path), "rate_hz", wish, "one step between all samples"
+                "these times are not evenly spaced",
+                file=str(path),
+                field="rate_hz",
+                value=wish,
+                allowed="one step between all samples",
             )
     else:
         step = 0.0
     if not (0.0 < step < math.inf and 1.0 / step < math.inf):
-        raise BadInput("is not a column of rising times", str(path), "rate_hz", wish, "times or their step, s")
+        raise BadInput(
+            "is not a column of rising times",
+            file=str(path),
+            field="rate_hz",
+            value=wish,
+            allowed="times or their step, s",
+        )
     return _roundest(step, 2.0 * beside / max(times.size - 1, 1))
 
 

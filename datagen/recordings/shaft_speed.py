@@ -90,7 +90,7 @@ def _irregular(source: Source, tach: Tach, times: NDArray[np.float64], whole: in
     else:
         problem = f"{wrong} of the {whole} pulses of its tach are missing or double"
         allowed = f"a signal with the same number of pulses in each turn, of which {MOST_MENDED:.0%} may be wrong"
-    return BadInput(problem, str(source.path), "tach.variable", tach.variable, allowed)
+    return BadInput(problem, file=str(source.path), field="tach.variable", value=tach.variable, allowed=allowed)
 
 
 def _require_nominal(source: Source, tach: Tach, times: NDArray[np.float64], start: float, stop: float) -> None:
@@ -102,10 +102,13 @@ def _require_nominal(source: Source, tach: Tach, times: NDArray[np.float64], sta
     mean = tach_speed(source, tach, times, start, stop)
     if abs(mean - nominal) > NOMINAL_WITHIN * nominal:
         raise BadInput(
-            f"its pulses give {mean:.6g} revolutions per minute, but nominal_speed_rpm = {nominal:g}", str(source.path),
-            "tach.pulses_per_rev", tach.pulses_per_rev,
-            f"a number of pulses per revolution that brings both within {NOMINAL_WITHIN:.0%}, or another nominal speed",
-        )  # fmt: skip
+            f"its pulses give {mean:.6g} revolutions per minute, but nominal_speed_rpm = {nominal:g}",
+            file=str(source.path),
+            field="tach.pulses_per_rev",
+            value=tach.pulses_per_rev,
+            allowed=f"a number of pulses per revolution that brings both within {NOMINAL_WITHIN:.0%}, or another "
+            "nominal speed",
+        )
 
 
 def _tach_speeds(
@@ -188,13 +191,16 @@ def tach_speed(source: Source, tach: Tach, times: NDArray[np.float64], start: fl
     if inside.size < FEWEST_PULSES:
         remark = TIMES_IN_S if tach.times else LEVEL
         raise BadInput(
-            f"{counted(inside.size, 'pulse')} from {start:g} to {stop:g} s", str(source.path), "tach.variable",
-            tach.variable, f"at least {FEWEST_PULSES} pulses; {remark}",
-        )  # fmt: skip
+            f"{counted(inside.size, 'pulse')} from {start:g} to {stop:g} s",
+            file=str(source.path),
+            field="tach.variable",
+            value=tach.variable,
+            allowed=f"at least {FEWEST_PULSES} pulses; {remark}",
+        )
     speed = float((inside.size - 1) / (inside[-1] - inside[0]) / tach.pulses_per_rev * RPM_PER_HZ)
     if not in_range("speed_rpm", speed):
         raise BadInput(
-            f"its pulses give {speed:.4g} revolutions per minute", str(source.path), "tach.pulses_per_rev",
-            tach.pulses_per_rev, f"pulses that give {RANGES['speed_rpm'].allowed()}",
+            f"its pulses give {speed:.4g} revolutions per minute", file=str(source.path), field="tach.pulses_per_rev",
+            value=tach.pulses_per_rev, allowed=f"pulses that give {RANGES['speed_rpm'].allowed()}",
         )  # fmt: skip
     return speed

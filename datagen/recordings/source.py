@@ -66,7 +66,7 @@ class Source:
         more = {"path": place_without_ending(request.name), "channel": request.channel.name}
         text = filled(said, self.path, name, more).strip()
         if not text:
-            raise BadInput("is empty for this file", str(self.path), name, said, "a name")
+            raise BadInput("is empty for this file", file=str(self.path), field=name, value=said, allowed="a name")
         return text
 
     def array(self, wish: str, field: str, fill: Callable[[Array, NDArray[np.intp]], Array] = straight) -> Array:
@@ -75,7 +75,11 @@ class Source:
         found = self._row(wish, field)
         if found.size < FEWEST_STORED_SAMPLES:
             raise BadInput(
-                f"holds {found.size} samples", str(self.path), field, wish, f"at least {FEWEST_STORED_SAMPLES} samples"
+                f"holds {found.size} samples",
+                file=str(self.path),
+                field=field,
+                value=wish,
+                allowed=f"at least {FEWEST_STORED_SAMPLES} samples",
             )
         values = found.astype(np.float64)
         bad = self.missing(wish, field)
@@ -104,7 +108,11 @@ class Source:
         if falls.size:
             at = falls[0]
             raise BadInput(
-                f"{told[at + 1]:g} follows {told[at]:g}", str(self.path), field, wish, "times that rise throughout"
+                f"{told[at + 1]:g} follows {told[at]:g}",
+                file=str(self.path),
+                field=field,
+                value=wish,
+                allowed="times that rise throughout",
             )
         return told
 
@@ -120,12 +128,14 @@ class Source:
         """The real numbers (T,) of a variable that is a single channel."""
         found = choose(self.arrays, wish, self.path, field)
         if found.dtype.kind not in "iuf":
-            raise BadInput(f"holds {found.dtype}, not real numbers", str(self.path), field, wish)
+            raise BadInput(f"holds {found.dtype}, not real numbers", file=str(self.path), field=field, value=wish)
         if found.ndim != 1 and found.size:
             shape = "x".join(map(str, found.shape)) or "one number"
             lying = found.ndim == 2 and found.shape[0] < found.shape[1]
             allowed = 'one row, as in "NAME[0,:]"' if lying else 'one column, as in "NAME[:,0]"'
-            raise BadInput(f"is not a single channel ({shape})", str(self.path), field, wish, allowed)
+            raise BadInput(
+                f"is not a single channel ({shape})", file=str(self.path), field=field, value=wish, allowed=allowed
+            )
         return found
 
     def _empty(self, wish: str, field: str) -> bool:
@@ -149,11 +159,11 @@ class Source:
             which = "the first is" if (line, text) == first else "one of them is"
             shown = json.dumps(text[:LONGEST_CELL], ensure_ascii=False)
             problem = f"{bad.size} of {size} cells are not finite numbers, {which} {shown}{self.arrays.hint}"
-            return BadInput(problem, f"{self.path}, line {line}", field, wish, allowed)
+            return BadInput(problem, file=f"{self.path}, line {line}", field=field, value=wish, allowed=allowed)
         if size == 1:
-            return BadInput("is not a finite number", str(self.path), field, wish)
+            return BadInput("is not a finite number", file=str(self.path), field=field, value=wish)
         problem = f"{bad.size} of {size} samples are not finite numbers, the first at sample {bad[0]} (from 0)"
-        return BadInput(problem, str(self.path), field, wish, allowed)
+        return BadInput(problem, file=str(self.path), field=field, value=wish, allowed=allowed)
 
     def variable(self, wish: str, field: str) -> str:
         """Name of the variable that the SPEC's `wish` means in this file, "" if there is none."""
@@ -177,7 +187,7 @@ class Source:
             problem = f"from the variable {said.variable}" + (", whose times are read as s" if said.times else "")
             remark = FACTOR if said.times else ANOTHER_UNIT if said.factor == 1.0 else ""
             allowed = "; ".join(filter(None, [RANGES[name].allowed(), remark]))
-            raise BadInput(problem, str(self.path), name, value, allowed)
+            raise BadInput(problem, file=str(self.path), field=name, value=value, allowed=allowed)
         return value
 
     def _finite_numbers(self, said: FromVariable, field: str) -> NDArray[Any]:
@@ -185,7 +195,9 @@ class Source:
         found = choose(self.arrays, said.variable, self.path, field)
         if found.dtype.kind not in "iuf" or not found.size:
             allowed = TIMES if said.times else ""
-            raise BadInput("is not a finite number", str(self.path), field, said.variable, allowed)
+            raise BadInput(
+                "is not a finite number", file=str(self.path), field=field, value=said.variable, allowed=allowed
+            )
         bad = np.flatnonzero(~np.isfinite(found))
         if bad.size:
             one = MOST_OF_THEM if bad.size < found.size / 2 else ONE_OF_THEM
@@ -209,9 +221,12 @@ class Source:
         zeros = found.size - np.count_nonzero(found)
         if found.size / 2 < zeros < found.size:
             raise BadInput(
-                f"is 0 in {zeros} of {found.size} places, so its mean means nothing", str(self.path), field, wish,
-                ONE_OF_THEM,
-            )  # fmt: skip
+                f"is 0 in {zeros} of {found.size} places, so its mean means nothing",
+                file=str(self.path),
+                field=field,
+                value=wish,
+                allowed=ONE_OF_THEM,
+            )
         return float(np.mean(found, dtype=np.float64))
 
     def _require_one_course(self, found: NDArray[Any], wish: str, field: str) -> None:
@@ -229,7 +244,7 @@ class Source:
         name, _ = chosen(self.arrays, wish, self.path, field)
         shape = "x".join(map(str, np.shape(self.arrays[name])))
         problem = f"holds {found.size} numbers from {found.min():g} to {found.max():g} ({name} is {shape})"
-        return BadInput(problem, str(self.path), field, wish, allowed)
+        return BadInput(problem, file=str(self.path), field=field, value=wish, allowed=allowed)
 
     def course(self, name: str, span: Span = WHOLE) -> Array | None:
         """The numbers (N,), 0 or above, that a variable holds along a `span` of the recording; None if it holds no such

@@ -124,7 +124,7 @@ def load_spec(path_or_name: str | Path) -> Spec:
     content, text = read_toml(path)
     if "part" in content and "recording" not in content:
         problem = "this is a recipe, for `spallgen generate`, not a SPEC of recordings"
-        raise BadInput(problem, str(path), "part", allowed="[[recording]]")
+        raise BadInput(problem, file=str(path), field="part", allowed="[[recording]]")
     return parse_spec(content, path, text)
 
 

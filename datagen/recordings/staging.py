@@ -47,7 +47,7 @@ def writing(folder: Path) -> Iterator[None]:
     try:
         yield
     except OSError as problem:
-        raise BadInput(f"cannot write here: {problem.strerror}", str(folder), OUT) from None
+        raise BadInput(f"cannot write here: {problem.strerror}", file=str(folder), field=OUT) from None
 
 
 def _sweep(place: Path, beginning: str) -> None:

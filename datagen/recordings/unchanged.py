@@ -17,7 +17,7 @@ def require_unchanged(path: Path) -> None:
     is remembered, so it would show none.
     """
     if _state(path) != first_state(path):
-        raise BadInput("the file changed while it was being imported", str(path))
+        raise BadInput("the file changed while it was being imported", file=str(path))
 
 
 @lru_cache(maxsize=100_000)
@@ -30,7 +30,7 @@ def _state(path: Path) -> State:
     try:
         found = path.stat()
     except FileNotFoundError:
-        raise BadInput("no such file", str(path)) from None
+        raise BadInput("no such file", file=str(path)) from None
     except OSError as problem:
-        raise BadInput(f"cannot be read: {problem.strerror}", str(path)) from None
+        raise BadInput(f"cannot be read: {problem.strerror}", file=str(path)) from None
     return found.st_size, found.st_mtime_ns, found.st_ino

@@ -45,7 +45,9 @@ def earlier_runs(folder: Path, identity: Identity) -> Earlier:
         if manifest_path(folder).exists():
             manifest = read_manifest(folder)
             if manifest.imported:
-                raise BadInput("this folder holds imported recordings: choose another folder", str(folder), OUT)
+                raise BadInput(
+                    "this folder holds imported recordings: choose another folder", file=str(folder), field=OUT
+                )
             _require_same(identity, manifest.identity, folder, f"the corpus {manifest.name}")
             return Earlier(manifest.asked)
         damage = None
@@ -82,8 +84,8 @@ def _require_same(identity: Identity, found: Identity, folder: Path, held: str =
         raise BadInput(
             f"{held} in this folder was begun with {', and with '.join(others)}; a corpus never mixes them: choose "
             "another folder, or delete this one",
-            str(folder),
-            OUT,
+            file=str(folder),
+            field=OUT,
         )
 
 
@@ -94,4 +96,6 @@ def _refuse_strangers(folder: Path) -> None:
     names = [path.name for path in folder.iterdir() if path.name not in BEGINNING and not is_temporary(path)]
     strangers = sorted(names) or sorted(path.name for path in shards_folder(folder).glob("*.nc"))
     if strangers:
-        raise BadInput(f"this folder holds no corpus but other things ({', '.join(strangers[:3])})", str(folder), OUT)
+        raise BadInput(
+            f"this folder holds no corpus but other things ({', '.join(strangers[:3])})", file=str(folder), field=OUT
+        )

@@ -85,4 +85,4 @@ def _make_folder(folder: Path) -> None:
     try:
         shards_folder(folder).mkdir(parents=True, exist_ok=True)
     except OSError as problem:
-        raise BadInput(f"cannot make this folder: {problem.strerror}", str(folder), OUT) from None
+        raise BadInput(f"cannot make this folder: {problem.strerror}", file=str(folder), field=OUT) from None

@@ -133,7 +133,13 @@ def _require_record(recipe: Recipe, rate: float, duration: float, need: float) -
 
 
 def _refusal(recipe: Recipe, location: Location, problem: str, value: object, allowed: str) -> BadInput:
-    return BadInput(problem, place_in_file(recipe.source, location), ".".join(map(str, location)), value, allowed)
+    return BadInput(
+        problem,
+        file=place_in_file(recipe.source, location),
+        field=".".join(map(str, location)),
+        value=value,
+        allowed=allowed,
+    )
 
 
 def memory_bytes() -> float:

@@ -94,10 +94,10 @@ def bad_settings(invalid: ValidationError, model: type[BaseModel], path: Path | 
     location = first.place + first.field
     return BadInput(
         _problem(first, location, model),
-        at_line(path, line_of(text, location)),
-        dotted(location),
-        _value(first, location),
-        _allowed(first, [error for error in errors if error.place == first.place])
+        file=at_line(path, line_of(text, location)),
+        field=dotted(location),
+        value=_value(first, location),
+        allowed=_allowed(first, [error for error in errors if error.place == first.place])
         + (_range_at(location, model) if first.kind in NO_NUMBER else ""),
     )
 

@@ -88,7 +88,11 @@ def _require_training(corpus: Path) -> None:
     present = set(read_index(corpus)["split"])
     if not present & set(SPLITS):
         raise BadInput(
-            "no records to learn from", str(corpus), "split", ", ".join(sorted(present)), " or ".join(SPLITS)
+            "no records to learn from",
+            file=str(corpus),
+            field="split",
+            value=", ".join(sorted(present)),
+            allowed=" or ".join(SPLITS),
         )
 
 

@@ -86,18 +86,24 @@ def _check(folder: Path, sizes: Mapping[int, float]) -> None:
     for record in sizes:
         if record not in rows:
             allowed = f"{table['record'].min()} to {table['record'].max()}"
-            raise BadInput("not in this corpus", str(folder), f"{FIELD}: record", record, allowed)
+            raise BadInput(
+                "not in this corpus", file=str(folder), field=f"{FIELD}: record", value=record, allowed=allowed
+            )
         if reason := reason_against({str(name): value for name, value in rows[record].items()}):
-            raise BadInput(f"it gets no estimate: {reason}", str(folder), f"{FIELD}: record", record)
+            raise BadInput(f"it gets no estimate: {reason}", file=str(folder), field=f"{FIELD}: record", value=record)
         if not machine_of(str(rows[record]["bearing_id"]), str(rows[record]["rig"])):
             allowed = "a record whose bearing_id or rig is known"
-            raise BadInput("its machine is not known", str(folder), f"{FIELD}: record", record, allowed)
+            raise BadInput(
+                "its machine is not known", file=str(folder), field=f"{FIELD}: record", value=record, allowed=allowed
+            )
 
 
 def _known_size(folder: Path, sized: SizedRecord, known_mm: float, estimator: AnyEstimator) -> KnownSize:
     estimate = estimator.estimate(sized.acceleration, sized.rate, sized.situation)
     if not estimate.found:
-        raise BadInput(f"it gets no estimate: {estimate.reason}", str(folder), f"{FIELD}: record", sized.record)
+        raise BadInput(
+            f"it gets no estimate: {estimate.reason}", file=str(folder), field=f"{FIELD}: record", value=sized.record
+        )
     machine = machine_of(str(sized.labels["bearing_id"]), str(sized.labels["rig"]))
     return KnownSize(
         sized.record, machine, known_mm, estimate.extent_mm, known_size_factor(estimate.extent_mm, known_mm)

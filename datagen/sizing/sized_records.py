@@ -81,12 +81,12 @@ def unsized_records(folder: Path, splits: tuple[str, ...] | None) -> list[Unsize
     """The records of a corpus that cannot be sized, in order; BadInput if all are like that, or there are none."""
     rows = [{str(key): value for key, value in row.items()} for row in _rows(folder, splits).to_dict("records")]
     if not rows:
-        raise BadInput("this corpus has no records", str(folder))
+        raise BadInput("this corpus has no records", file=str(folder))
     reasons = [reason_against(labels) for labels in rows]
     if not all(reasons):
         return [UnsizedRecord(labels, reason) for labels, reason in zip(rows, reasons, strict=True) if reason]
     counts = ", ".join(f"{count} ({reason})" for reason, count in Counter(reasons).most_common())
-    raise BadInput(f"none of its {len(rows)} records can be sized: {counts}", str(folder))
+    raise BadInput(f"none of its {len(rows)} records can be sized: {counts}", file=str(folder))
 
 
 def count_records(folder: Path, splits: tuple[str, ...] | None) -> int:

@@ -12,6 +12,7 @@ from labels.spall_size.events.candidates import candidate_places
 from labels.spall_size.events.evidence import Evidence
 from labels.spall_size.events.pairs import Pairs, RecordFacts, all_pairs
 from labels.spall_size.signal.alignment import Alignment, aligned
+from labels.spall_size.signal.divisors import divisor
 from labels.spall_size.signal.mean_pass import mean_pass
 from labels.spall_size.signal.noise_floor import log_noise_share
 from labels.spall_size.signal.pass_track import PassTrack, track_passes
@@ -82,9 +83,9 @@ def gather_evidence(signal: Array, rate: float, pass_period: dict[str, float]) -
 
 def peakedness(energy: Array) -> float:
     """Log of the mean over the median of an `energy` (T,): the rarer and larger its bursts, the larger."""
-    return math.log(float(energy.mean()) / max(float(np.median(energy)), 1e-300))
+    return math.log(float(energy.mean()) / divisor(np.median(energy)))
 
 
 def predictability(signal: Array) -> float:
     """Log of the variance of a `signal` (T,) over that of its differences: the smoother the signal, the larger."""
-    return math.log(float(np.var(signal)) / max(float(np.var(np.diff(signal))), 1e-300))
+    return math.log(float(np.var(signal)) / divisor(np.var(np.diff(signal))))

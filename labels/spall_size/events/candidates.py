@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 from scipy.signal import find_peaks
 
+from labels.spall_size.signal.divisors import divisor
 from labels.spall_size.signal.mean_pass import Channel, MeanPass
 from physics.arrays import Array
 
@@ -55,7 +56,7 @@ def candidate_places(mean: MeanPass) -> Array:
     found: Ranked = []
     for channel in SEARCHED:
         energy = mean.energy[channel]
-        level = np.log(energy / max(float(energy[near].max()), 1e-300) + math.exp(-DEPTH))
+        level = np.log(energy / divisor(energy[near].max()) + math.exp(-DEPTH))
         for blur in (*BLURS, max(PERIOD_BLUR * mean.period, LEAST_PERIOD_BLUR)):
             found += _peaks(level, blur, mean.offset)
             if channel is SEARCHED[0]:

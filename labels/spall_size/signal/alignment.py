@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 from scipy.signal import fftconvolve
 
+from labels.spall_size.signal.divisors import divisor
 from labels.spall_size.signal.pass_track import CELLS, PassTrack
 from physics.arrays import Array
 
@@ -60,7 +61,7 @@ def aligned(energy: Array, rate: float, track: PassTrack) -> Alignment | None:
     for _ in range(ROUNDS):
         template = _template(window, np.round(shift).astype(np.int64), search, core)
         shift, match = _best_shift(window, template, search)
-    level = max(float(np.percentile(match, 90)), 1e-300)
+    level = divisor(np.percentile(match, 90))
     return Alignment(start + shift, np.clip(match / level, 0.0, 1.0) ** 2)
 
 
@@ -69,7 +70,7 @@ def _template(window: Array, shift: NDArray[np.int64], search: int, core: int) -
     cores = np.take_along_axis(window, columns, axis=1)
     mean = np.maximum(cores.sum(axis=1), 0.0) @ cores
     mean = mean - mean.mean()
-    return np.asarray(mean / max(float(np.sqrt((mean**2).sum())), 1e-300))
+    return np.asarray(mean / divisor(np.sqrt((mean**2).sum())))
 
 
 def _best_shift(window: Array, template: Array, search: int) -> tuple[Array, Array]:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 
 from labels.spall_size.signal.alignment import Alignment
+from labels.spall_size.signal.divisors import divisor
 from physics.arrays import Array
 
 # Edges of the bands as shares of the sampling rate: below 2 kHz, to 8 kHz and above at 65 536 Hz. The first two hold
@@ -86,7 +87,7 @@ def mean_pass(signal: Array, whitened: Array, alignment: Alignment, period: floa
 
 
 def _standardised(curve: Array) -> tuple[Array, float]:
-    unit = max(float(curve.std()), 1e-300)
+    unit = divisor(curve.std())
     return np.asarray((curve - curve.mean()) / unit), unit
 
 
@@ -111,4 +112,4 @@ def _bands(whitened: Array) -> list[Array]:
 
 
 def _floor(energy: Array) -> float:
-    return max(float(np.median(energy)), 1e-300)
+    return divisor(np.median(energy))

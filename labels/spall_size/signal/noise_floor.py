@@ -7,6 +7,7 @@ import math
 import numpy as np
 from scipy.ndimage import uniform_filter1d
 
+from labels.spall_size.signal.divisors import divisor
 from physics.arrays import Array
 
 # Samples of each of the stretches whose spectra are averaged.
@@ -28,4 +29,4 @@ def log_noise_share(signal: Array) -> float:
     shaped = (windows - signal.mean()) * np.hanning(SEGMENT)
     power = (np.abs(np.fft.rfft(shaped, axis=1)) ** 2).mean(axis=0)[1:-1]
     quietest = float(uniform_filter1d(power, SMOOTHED, mode="nearest").min())
-    return math.log(max(quietest * power.size / max(float(power.sum()), 1e-300), CLEANEST))
+    return math.log(max(quietest * power.size / divisor(power.sum()), CLEANEST))

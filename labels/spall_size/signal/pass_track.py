@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 from scipy.signal import fftconvolve
 
+from labels.spall_size.signal.divisors import divisor
 from physics.arrays import Array
 from physics.compiled import njit
 
@@ -55,18 +56,18 @@ def track_passes(energy: Array, rate: float, period: float) -> PassTrack | None:
     log_energy = _cells(energy, step)
     if log_energy.size < FEWEST_TRACKED * CELLS:
         return None
-    log_energy = np.log1p(log_energy / max(float(np.median(log_energy)), 1e-300))
+    log_energy = np.log1p(log_energy / divisor(np.median(log_energy)))
     log_energy -= log_energy.mean()
-    spread = max(float(log_energy.std()), 1e-300)
+    spread = divisor(log_energy.std())
     match = gaussian_filter1d(log_energy, BLUR)
-    match /= max(float(match.std()), 1e-300)
+    match /= divisor(match.std())
     path = _best_path(match, 1.0 - FIRST_TOLERANCE, 1.0 + FIRST_TOLERANCE, float(CELLS), FIRST_DEVIATION * CELLS)
     pattern = np.zeros(CELLS)
     for _ in range(ROUNDS):
         mean = float(np.polyfit(np.arange(path.size), path, 1)[0])
         pattern = _mean_pattern(log_energy, path)
         match = fftconvolve(log_energy, pattern[::-1])[CELLS // 2 - 1 :][: log_energy.size]
-        match /= max(float(np.sqrt((pattern**2).sum())) * spread, 1e-300)
+        match /= divisor(np.sqrt((pattern**2).sum()) * spread)
         share = mean / CELLS
         path = _best_path(match, share * (1.0 - TOLERANCE), share * (1.0 + TOLERANCE), mean, DEVIATION * CELLS)
     seconds = step / rate

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import solve, solve_toeplitz
 
+from labels.spall_size.signal.divisors import TINIEST
 from physics.arrays import Array
 
 # Samples of the past from which a sample is predicted.
@@ -66,7 +67,7 @@ def _residual(x: Array, coefficients: Array) -> Array:
 
 def _reweighted(x: Array, coefficients: Array) -> Array:
     power = _residual(x, coefficients) ** 2
-    weight = 1.0 / (power + FLOOR_SHARE * power.mean() + 1e-300)
+    weight = 1.0 / (power + FLOOR_SHARE * power.mean() + TINIEST)
     # Of the products of a sample and its ORDER predecessors, the last column is that of the sample itself.
     products = np.zeros((ORDER + 1, ORDER + 1))
     past = np.lib.stride_tricks.sliding_window_view(x, ORDER + 1)

@@ -6,8 +6,9 @@ import subprocess
 import sys
 import tempfile
 
-# What compiles most comes first: every method, which all others find compiled.
-FIRST = ("test_where_methods_fail.py", "test_wheel.py")
+# What compiles most comes first: every method, which all others find compiled. Beside it what takes one process longest
+# without a kernel, so that none is left with it while the other has nothing more to do.
+FIRST = ("test_where_methods_fail.py", "test_style.py", "test_wheel.py")
 
 # Processes run side by side: threads of linear algebra and of learners would only wait for each other.
 for threads in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):

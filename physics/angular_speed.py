@@ -3,6 +3,11 @@
 from __future__ import annotations
 
 import math
+from typing import TypeVar
+
+from physics.arrays import Array
+
+Speed = TypeVar("Speed", float, Array)
 
 RPM_PER_HZ = 60.0
 # One revolution per minute, rad/s.
@@ -14,6 +19,6 @@ def in_rpm(speed: float) -> float:
     return speed * 30.0 / math.pi
 
 
-def in_hertz(speed: float) -> float:
-    """Turns, or swings, per second of a `speed` in rad/s."""
+def in_hertz(speed: Speed) -> Speed:
+    """Turns, or swings, per second of a `speed` in rad/s, a number or an array."""
     return speed / (2.0 * math.pi)

@@ -43,7 +43,7 @@ def assemble(scene: Scene) -> Contacts:
     law = Law(
         stiffness=bearing.radial_load_deflection,
         exponent=bearing.exponent,
-        damping=rig.film_damping * math.cos(bearing.contact_angle) ** 2,
+        damping=rig.radial_film_damping,
         no_tension=scene.contact_law == "no_tension",
     )
     return Contacts(_balls(scene), np.zeros((len(scene.cages), FRAME_COLUMNS)), law, _track(scene))

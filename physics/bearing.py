@@ -16,6 +16,13 @@ LARGEST_CONTACT_ANGLE = math.radians(60.0)
 ROUNDING = 1e-12
 
 
+def raceway_radius(race: str, pitch_diameter: float, ball_diameter: float, contact_angle: float) -> float:
+    """Radius of the raceway at the contact, m: `race` is "outer" or "inner". InvalidParameter for another."""
+    require_one_of("race", race, RACES)
+    shift = ball_diameter * math.cos(contact_angle)
+    return (pitch_diameter + shift) / 2.0 if race == "outer" else (pitch_diameter - shift) / 2.0
+
+
 @dataclass(frozen=True)
 class Bearing:
     """A radially loaded bearing with one row of rolling elements, or two staggered rows (SI units).
@@ -81,11 +88,7 @@ class Bearing:
 
     def raceway_radius(self, race: str) -> float:
         """Radius of the raceway at the contact, m: `race` is "outer" or "inner". InvalidParameter for another."""
-        shift = self.ball_diameter * math.cos(self.contact_angle)
-        if race == "outer":
-            return (self.pitch_diameter + shift) / 2.0
-        require_one_of("race", race, RACES)
-        return (self.pitch_diameter - shift) / 2.0
+        return raceway_radius(race, self.pitch_diameter, self.ball_diameter, self.contact_angle)
 
     @property
     def diameter_ratio(self) -> float:

@@ -68,6 +68,13 @@ def require_positive(field: str, value: float, unit: str = "", what: str = "") -
     require(_is_finite(value) and value > 0.0, f"{what or field} = {value!r}{suffix}; it must be above 0", field)
 
 
+def require_up_to(field: str, value: float, high: float, unit: str = "", what: str = "") -> None:
+    """Raise InvalidParameter unless `value` is finite and 0 < value ≤ high."""
+    suffix = f" {unit}" if unit else ""
+    message = f"{what or field} = {value!r}{suffix}; allowed: above 0, up to {high:g}{suffix}"
+    require(_is_finite(value) and 0.0 < value <= high, message, field)
+
+
 def require_not_negative(field: str, value: float, unit: str = "", what: str = "") -> None:
     """Raise InvalidParameter unless `value` is finite and zero or above."""
     suffix = f" {unit}" if unit else ""

@@ -8,7 +8,14 @@ from dataclasses import dataclass
 from scipy.optimize import brentq
 from scipy.special import ellipe, ellipkm1
 
-from physics.bearing import DEFAULT_CONFORMITY, LARGEST_CONTACT_ANGLE, RACES, SMALLEST_CONFORMITY, Bearing
+from physics.bearing import (
+    DEFAULT_CONFORMITY,
+    LARGEST_CONTACT_ANGLE,
+    RACES,
+    SMALLEST_CONFORMITY,
+    Bearing,
+    raceway_radius,
+)
 from physics.checks import require, require_between, require_one_of, require_positive
 
 # Of bearing steel; the modulus in Pa.
@@ -111,7 +118,7 @@ def race_contact(
     require_between("contact_angle", contact_angle, 0.0, LARGEST_CONTACT_ANGLE, "rad")
     require_between("conformity", conformity, SMALLEST_CONFORMITY, 1e3)
     towards = math.cos(contact_angle)
-    race_radius = (pitch_diameter + (1.0 if race == "outer" else -1.0) * ball_diameter * towards) / 2.0
+    race_radius = raceway_radius(race, pitch_diameter, ball_diameter, contact_angle)
     bend = (-1.0 if race == "outer" else 1.0) * towards / race_radius
     return PointContact(
         along=2.0 / ball_diameter + bend,

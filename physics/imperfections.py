@@ -5,14 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from physics.bearing import RACES
-from physics.checks import (
-    require_between,
-    require_count,
-    require_finite,
-    require_one_of,
-    require_positive,
-    settle_tuples,
-)
+from physics.checks import require_between, require_count, require_finite, require_one_of, require_up_to, settle_tuples
 
 # m, far beyond a race that is still one.
 HIGHEST_WAVE = 1e-2
@@ -35,8 +28,7 @@ class Waviness:
     def __post_init__(self) -> None:
         require_one_of("race", self.race, RACES)
         require_count("order", self.order, 1, 2000)
-        require_positive("amplitude", self.amplitude, "m")
-        require_between("amplitude", self.amplitude, 0.0, HIGHEST_WAVE, "m", f"amplitude of order {self.order}")
+        require_up_to("amplitude", self.amplitude, HIGHEST_WAVE, "m", f"amplitude of order {self.order}")
         require_finite("phase", self.phase, "rad")
 
 

@@ -69,7 +69,7 @@ def modes(rig: Rig, stiffness: Array, damping: Array) -> Modes:
     order = np.argsort(frequency, kind="stable")
     shape = vectors[size:, columns[order]]
     largest = shape[np.argmax(np.abs(shape), axis=0), np.arange(size)]
-    return Modes(frequency[order] / (2.0 * math.pi), ratio[order], shape / largest)
+    return Modes(in_hertz(frequency[order]), ratio[order], shape / largest)
 
 
 def _pair(values: NDArray[np.complex128]) -> tuple[Array, Array, Index]:

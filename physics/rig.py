@@ -53,6 +53,11 @@ class Rig:
         """Angular frequency of the resonator on the outer ring without support and shaft, rad/s."""
         return math.sqrt(self.resonator_stiffness * (1.0 / self.resonator_mass + 1.0 / self.outer_mass))
 
+    @property
+    def radial_film_damping(self) -> float:
+        """Damping of the radial force against the radial compression rate, c_d cos² α, N s/m [P14 Eq. 9]."""
+        return self.film_damping * math.cos(self.bearing.contact_angle) ** 2
+
     def mass_matrix(self) -> Array:
         """M of (xi, yi, xo, yo, xr, yr), shape (6, 6), kg [P14 Eq. 13, 14]."""
         return np.diag(np.repeat([self.inner_mass, self.outer_mass, self.resonator_mass], 2))

@@ -15,7 +15,7 @@ from physics.checks import (
     require_finite,
     require_not_negative,
     require_one_of,
-    require_positive,
+    require_up_to,
     settle_tuples,
 )
 
@@ -75,8 +75,7 @@ class Spall:
         require_count("row", self.row, 1, 2)
         require_one_of("profile", self.profile, PROFILES)
         require_finite("angle", self.angle, "rad")
-        require_positive("extent", self.extent, "rad")
-        require_between("extent", self.extent, 0.0, math.pi, "rad")
+        require_up_to("extent", self.extent, math.pi, "rad")
         require_between("depth", self.depth, 0.0, DEEPEST, "m")
         require_not_negative("roughness", self.roughness, "m")
         for field in ("entry_taper", "exit_taper"):

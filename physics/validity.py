@@ -146,7 +146,7 @@ def _ball_inertia(scene: Scene, peak: float) -> str:
 
 
 def _steps(scene: Scene) -> str:
-    radial_damping = scene.rig.film_damping * math.cos(scene.rig.bearing.contact_angle) ** 2
+    radial_damping = scene.rig.radial_film_damping
     steps = [
         spall.depth
         for spall in scene.spalls

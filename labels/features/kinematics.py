@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
+from physics.bearing import RACES
+from physics.checks import require_one_of
 from physics.orders import ball_spin_order, cage_order, inner_pass_order, outer_pass_order
 
 # Shares by which the cage's slip moves a family at most, and usually.
@@ -57,7 +59,8 @@ class Kinematics:
         return inner_pass_order(self.balls, self.diameter_ratio)
 
     def pass_order(self, race: str) -> float:
-        """Order at which balls pass a point of the race "outer" or "inner"."""
+        """Order at which balls pass a point of the race "outer" or "inner"; InvalidParameter for another."""
+        require_one_of("race", race, RACES)
         return self.bpfo if race == "outer" else self.bpfi
 
     def at(self, shaft_hz: float) -> Kinematics:

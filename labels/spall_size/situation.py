@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
-from physics.bearing import Bearing
-from physics.checks import require, require_not_negative, require_positive
+from physics.bearing import RACES, Bearing
+from physics.checks import require_not_negative, require_one_of, require_positive
 from physics.hertz import BALL_EXPONENT
 
 # Hertz factor of the bearing where none is known, N/mⁿ: it only has to be above 0.
@@ -39,7 +39,8 @@ class Situation:
         require_positive("shaft_speed", self.shaft_speed, "rad/s")
         if self.load is not None:
             require_not_negative("load", self.load, "N")
-        require(self.race in (None, "outer", "inner"), f'race = "{self.race}"; allowed: outer, inner', "race")
+        if self.race is not None:
+            require_one_of("race", self.race, RACES)
         self.bearing()
 
     def bearing(self) -> Bearing:

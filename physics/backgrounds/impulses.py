@@ -14,6 +14,7 @@ from physics.checks import (
     require_between,
     require_not_negative,
     require_positive,
+    require_up_to,
     settle_tuples,
 )
 from physics.recursive_filter import filtered
@@ -36,8 +37,7 @@ class Resonance:
 
     def __post_init__(self) -> None:
         require_positive("frequency", self.frequency, "Hz", what="impulse resonance")
-        require_between("damping", self.damping, 0.0, HIGHEST_DAMPING, what="impulse damping")
-        require_positive("damping", self.damping, what="impulse damping")
+        require_up_to("damping", self.damping, HIGHEST_DAMPING, what="impulse damping")
 
     def check_rate(self, rate: float) -> None:
         """Raise InvalidParameter unless the resonance lies below half the sampling `rate` (Hz)."""

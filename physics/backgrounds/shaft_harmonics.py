@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 
+from physics.angular_speed import in_hertz
 from physics.arrays import Array
 from physics.backgrounds.tones import draw_phases, tones
 from physics.checks import require_count, require_not_negative, settle_tuples
@@ -38,4 +38,4 @@ def shaft_harmonics(
     """
     orders = layer.first_order + np.arange(len(layer.amplitudes), dtype=np.float64)
     phase = draw_phases(generator, orders.size)
-    return tones(orders * shaft_speed / (2.0 * math.pi), np.array(layer.amplitudes), phase, samples, rate)
+    return tones(in_hertz(orders * shaft_speed), np.array(layer.amplitudes), phase, samples, rate)

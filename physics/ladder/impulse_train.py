@@ -110,18 +110,15 @@ def _ball_angle(scene: Scene, spall: Spall, ball: Index, time: Array) -> Array:
     return np.asarray(turned + bearing.spacing * (ball - 1) + bearing.stagger * (spall.row - 1))
 
 
-def edges_of(scene: Scene) -> Edges:
-    """The steps of force at all edges of all spalls of `scene` whose middle lies within it, in the order of time."""
-    return _within(_edges_around(scene), scene.duration)
-
-
-def _within(edges: Edges, duration: float) -> Edges:
+def edges_within(edges: Edges, duration: float) -> Edges:
+    """Those of the steps of force whose middle lies within a record of this `duration` (s)."""
     within = (edges.time >= 0.0) & (edges.time < duration)
     return Edges._make(column[within] for column in edges)
 
 
-def _edges_around(scene: Scene) -> Edges:
-    """The steps at all edges of all spalls, also before and behind the record, in the order of time."""
+def edges_around(scene: Scene) -> Edges:
+    """The steps of force at all edges of all spalls of `scene`, in the order of time, also before the record and
+    behind it."""
     parts = [part for index in range(len(scene.spalls)) for part in _edges_of_spall(scene, index)]
     none, number = np.zeros(0), np.zeros(0, np.int16)
     empty = Edges(none, number, number, none, none, none, np.zeros(0, np.bool_))
@@ -188,8 +185,8 @@ def impulse_response(scene: Scene, rate: float, keep: Kept = ACCELERATION_ALONE)
     """
     samples, rig = scene.samples(rate), scene.rig
     stiffness, film = _mean_contacts(scene)
-    around = _edges_around(scene)
-    edges = _within(around, scene.duration)
+    around = edges_around(scene)
+    edges = edges_within(around, scene.duration)
     squared, shapes = eigh(coupled_matrix(rig.stiffness_matrix(), stiffness), rig.mass_matrix())
     damping = np.diag(shapes.T @ coupled_matrix(rig.damping_matrix(), film) @ shapes)
     cos_alpha = math.cos(rig.bearing.contact_angle)

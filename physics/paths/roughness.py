@@ -8,7 +8,7 @@ import numpy as np
 
 from physics.arrays import Array
 from physics.bearing import Bearing
-from physics.checks import require_between, require_not_negative, require_positive
+from physics.checks import require_not_negative, require_positive, require_up_to
 
 STEPS_PER_WIDTH = 8
 FEWEST_STEPS = 16
@@ -41,8 +41,7 @@ def draw_roughness(
     no values. InvalidParameter unless the extent is above 0 and π at most, the deviation not below 0 and the contact
     width above 0.
     """
-    require_between("extent", extent, 0.0, math.pi, "rad")
-    require_positive("extent", extent, "rad")
+    require_up_to("extent", extent, math.pi, "rad")
     require_not_negative("deviation", deviation, "m")
     if deviation == 0.0:
         return ()

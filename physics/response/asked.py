@@ -10,8 +10,8 @@ from physics.statics.load_distribution import Equilibrium
 
 @dataclass(frozen=True)
 class Asked:
-    """A response of `scene` at k / `rate` (Hz), so many `samples`, from the first of its positions at `rest`
-    (modal_case.resting), to the relative RMS `accuracy` or to `least_error` (m/s², RMS), which is always allowed."""
+    """A response of `scene` at k / `rate` (Hz), so many `samples`, from the first of its positions at `rest`,
+    to the relative RMS `accuracy` or to `least_error` (m/s², RMS), which is always allowed."""
 
     scene: Scene
     rest: Equilibrium

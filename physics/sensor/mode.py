@@ -14,7 +14,7 @@ from scipy.linalg import expm
 
 from physics._jit import njit, njit_inline
 from physics.arrays import Array
-from physics.checks import require_below_nyquist, require_between, require_finite, require_positive
+from physics.checks import require_below_nyquist, require_finite, require_positive, require_up_to
 from physics.trace import OuterMotion
 
 # Share of the critical damping; above 1/√2 nothing stands out of a frequency response.
@@ -36,8 +36,7 @@ class SensorMode:
 
     def __post_init__(self) -> None:
         require_positive("frequency", self.frequency, "Hz", what="sensor resonance")
-        require_between("damping", self.damping, 0.0, HIGHEST_DAMPING, what="sensor damping")
-        require_positive("damping", self.damping, what="sensor damping")
+        require_up_to("damping", self.damping, HIGHEST_DAMPING, what="sensor damping")
         require_finite("gain", self.gain)
 
     def check_rate(self, rate: float) -> None:

@@ -17,8 +17,8 @@ def test_a_bearing_is_perfect_by_default():
         ({"order": 0}, "order = 0; allowed: whole numbers 1 to 2000"),
         ({"order": 2001}, "order = 2001; allowed: whole numbers 1 to 2000"),
         ({"order": 2.5}, "order = 2.5; allowed: whole numbers"),
-        ({"amplitude": 0.0}, "amplitude = 0.0 m; it must be above 0"),
-        ({"amplitude": 0.02}, "amplitude of order 7 = 0.02 m; allowed: 0 to 0.01 m"),
+        ({"amplitude": 0.0}, "amplitude of order 7 = 0.0 m; allowed: above 0, up to 0.01 m"),
+        ({"amplitude": 0.02}, "amplitude of order 7 = 0.02 m; allowed: above 0, up to 0.01 m"),
         ({"phase": math.nan}, "phase = nan rad; it must be finite"),
     ],
 )

@@ -10,7 +10,7 @@ from scipy.integrate import solve_ivp
 from physics.checks import InvalidParameter
 from physics.imperfections import Imperfections
 from physics.ladder.contact_sets import changes_between_samples
-from physics.ladder.impulse_train import edges_of, impulse_response
+from physics.ladder.impulse_train import edges_around, edges_within, impulse_response
 from physics.ladder.linear_time_varying import repeats_with_the_balls
 from physics.ladder.model_table import SIMPLER_MODELS
 from physics.modes import coupled_matrix, coupled_resonator_frequency, rated_matrices
@@ -25,6 +25,10 @@ from physics.statics.stiffness import stiffness_at, symmetric_matrices
 from physics.trace import ACCELERATION_ALONE, KEEPABLE, Kept
 
 RATE = 65536.0
+
+
+def edges_of(scene):
+    return edges_within(edges_around(scene), scene.duration)
 
 
 def nonlinear(scene, keep=ACCELERATION_ALONE):

@@ -107,7 +107,7 @@ def test_a_value_that_no_machine_has_is_refused_by_its_key(table: str, settings:
 def test_a_wave_that_no_race_has_is_refused_whatever_made_it_so_high() -> None:
     recipe = recipe_of("imperfections", {"waviness": [WAVE | {"amplitude_um": 1, "decay": -4}], "waviness_scale": 9})
     with pytest.raises(
-        BadInput, match=r"of order 6 = 0\.0116.* m; allowed: 0 to 0\.01 m \(.*waviness_scale = 9"
+        BadInput, match=r"of order 6 = 0\.0116.* m; allowed: above 0, up to 0\.01 m \(.*waviness_scale = 9"
     ) as refused:
         draw_scenario(recipe, 0)
     assert "part[1].imperfections.waviness[1].amplitude_um = 1.0: machine 0 of part" in str(refused.value)

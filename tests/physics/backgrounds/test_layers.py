@@ -280,8 +280,8 @@ def test_pink_noise_that_begins_beyond_half_the_rate_is_refused():
         (lambda: Impulses(1.0, -1.0, 0.5, (Resonance(5.0, 0.1),)), r"impulse amplitude = -1\.0 m/s²"),
         (lambda: Impulses(1.0, 1.0, 0.5, ()), "impulses have no resonance to ring"),
         (lambda: Resonance(0.0, 0.1), r"impulse resonance = 0\.0 Hz; it must be above 0"),
-        (lambda: Resonance(5.0, 0.71), r"impulse damping = 0\.71; allowed: 0 to 0\.7"),
-        (lambda: Resonance(5.0, 0.0), r"impulse damping = 0\.0; it must be above 0"),
+        (lambda: Resonance(5.0, 0.71), r"impulse damping = 0\.71; allowed: above 0, up to 0\.7"),
+        (lambda: Resonance(5.0, 0.0), r"impulse damping = 0\.0; allowed: above 0, up to 0\.7"),
     ],
 )
 def test_an_impossible_layer_is_refused_with_its_number(make, message):

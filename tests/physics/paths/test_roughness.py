@@ -151,8 +151,8 @@ def test_the_values_fit_a_spall(gearbox):
     ("change", "message"),
     [
         ({"deviation": -1e-6}, "deviation = -1e-06 m; it must not be below 0"),
-        ({"extent": 0.0}, "extent = 0.0 rad; it must be above 0"),
-        ({"extent": 3.2}, "extent = 3.2 rad; allowed: 0 to 3.14159 rad"),
+        ({"extent": 0.0}, "extent = 0.0 rad; allowed: above 0, up to 3.14159 rad"),
+        ({"extent": 3.2}, "extent = 3.2 rad; allowed: above 0, up to 3.14159 rad"),
         ({"width": 0.0}, "contact_width = 0.0 m; it must be above 0"),
         ({"race": "cage"}, 'race = "cage"'),
     ],

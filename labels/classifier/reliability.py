@@ -37,12 +37,10 @@ def reliability(
     }
 
 
-def calibration_error(
-    positive: NDArray[np.bool_], probability: Array, weights: Array | None = None, bins: int = 10
-) -> float:
+def calibration_error(positive: NDArray[np.bool_], probability: Array, weights: Array | None = None) -> float:
     """Expected calibration error: the weighted mean, over the bins of `reliability`, of how far the predicted
     probability is from the observed share of `positive` (N,) records; NaN without records."""
-    curve = reliability(positive, probability, weights, bins)
+    curve = reliability(positive, probability, weights)
     weight = np.array(curve["weight"])
     if weight.size == 0:
         return float("nan")

@@ -174,7 +174,7 @@ def march_dormand_prince(
             step, rejected = length * _control(error, tolerance, True), True
             continue
         ball, changed = -1, count_changes(contacts)
-        if trial.halfway > 0 and tried < MOST_CHANGES_PER_STEP:
+        if trial.contradicted > 0 and tried < MOST_CHANGES_PER_STEP:
             trial, ball = _cut(contacts, motion, trial, work)
         if ball >= 0:
             tried, meets = tried + 1, False

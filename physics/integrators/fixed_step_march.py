@@ -156,8 +156,8 @@ def _cross(
         target, beyond = _end_of_part(contacts.balls, stops, ahead, time, span.finish, pace[0], series.step)
         trial = attempt(contacts, motion, series, work, time, target - time, now, force, then)
         changed = count_changes(contacts)
-        settled = changed + trial.halfway == 0 and beyond == target
-        if changed + trial.halfway > 0 and tried < MOST_CHANGES_PER_STEP:
+        settled = changed + trial.contradicted == 0 and beyond == target
+        if changed + trial.contradicted > 0 and tried < MOST_CHANGES_PER_STEP:
             tried += 1
             share, ball = locate(contacts, motion, trial)
             if ball >= 0:

@@ -56,5 +56,7 @@ def locate(contacts: Contacts, motion: MotionModel, trial: Trial) -> tuple[float
     _relative_motion(motion, trial.time, trial.step, trial.now, trial.force, begin)
     _relative_motion(motion, trial.time + trial.step, trial.step, trial.then, trial.after, end)
     suspects = np.zeros((contacts.balls.shape[0], contacts.balls.shape[2]))
-    share, ball, _ = earliest_change(contacts, Way(trial.time, trial.step, begin, end), trial.halfway > 0, suspects)
+    share, ball, _ = earliest_change(
+        contacts, Way(trial.time, trial.step, begin, end), trial.contradicted > 0, suspects
+    )
     return share, ball

@@ -15,7 +15,7 @@ MOST_CHANGES_PER_STEP = 100
 
 class Trial(NamedTuple):
     """A step from the state `now` at `time` (s), where the contacts' `force` (N, N) is known, over `step` (s) to the
-    state `then`, where it is `after`; and how many balls contradict the contact set `halfway`.
+    state `then`, where it is `after`; and how many balls `contradicted` the contact set at the stages inside it.
 
     States and forces are as the method that makes the step takes them: physical ones, or amplitudes of the modes and
     the force that remains beside their spring and damper.
@@ -27,7 +27,7 @@ class Trial(NamedTuple):
     force: tuple[float, float]
     then: Array
     after: tuple[float, float]
-    halfway: int
+    contradicted: int
 
 
 @njit_inline

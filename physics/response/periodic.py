@@ -29,7 +29,7 @@ from physics.trace import ContactChanges, Trace
 METHOD = "modal, repeated"
 # The response is read between samples of the march: so many a period of the fastest mode, and at least so many for each
 # one asked for.
-SAMPLES_PER_FAST_PERIOD, FINENESS = 16.0, 3
+SAMPLES_READ_AGAIN, FINENESS = 16.0, 3
 # A record must hold this many periods, or repeating spares too little; fewer where a spall is rough and steps short.
 FEWEST_PERIODS, FEWEST_ROUGH_PERIODS = 20, 12
 # So many periods show how a slow part of the transient falls.
@@ -91,7 +91,7 @@ def respond_until_repeated(asked: Asked) -> Trace:
 
 def _fineness(scene: Scene, rate: float) -> int:
     """How many times as dense as asked for, at `rate` (Hz), the samples of the march are."""
-    return max(FINENESS, math.ceil(fast_periods(motion_model(scene), 1.0 / rate) * SAMPLES_PER_FAST_PERIOD))
+    return max(FINENESS, math.ceil(fast_periods(motion_model(scene), 1.0 / rate) * SAMPLES_READ_AGAIN))
 
 
 def _read_again(scene: Scene, marched: Trace, marching: _Repeating, rate: float, samples: int) -> Trace:

@@ -9,7 +9,6 @@ from variants import slipping_cage
 
 from physics.assembly import assemble, ball_numbers
 from physics.cage import CagePath
-from physics.checks import InvalidParameter
 from physics.contact.forces import (
     BALL_ROWS,
     COMPRESSION,
@@ -73,11 +72,3 @@ def test_the_kernels_read_the_cage_path_even_where_one_cage_has_fewer_knots(gear
         assert frame[FRAME_COSINE] == pytest.approx(math.cos(angle), abs=1e-12)
         assert frame[FRAME_SINE] == pytest.approx(math.sin(angle), abs=1e-12)
         assert frame[FRAME_SPEED] == pytest.approx(float(cage.polynomial(time, nu=1)), rel=1e-12)
-
-
-def test_a_race_turns_with_the_shaft_or_not_at_all(gearbox, build_scene):
-    scene = build_scene(gearbox)
-    with pytest.raises(InvalidParameter, match="Inner"):
-        scene.race_speed("Inner")
-    assert scene.race_speed("outer") == 0.0
-    assert scene.race_speed("inner") == pytest.approx(2 * math.pi * 7.0)

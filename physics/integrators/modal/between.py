@@ -13,7 +13,7 @@ from physics.integrators.modal.flow import LinearFlow
 from physics.integrators.modal.memory import BETWEEN, UNITS, Memory
 from physics.integrators.modal.weights import set_step
 
-NODES, BEHIND = 8, 3
+NODES, NODES_BEHIND = 8, 3
 # Radians that the fastest mode may turn in a unit. A weight is then wrong by 2e-10 of the largest of its kind in the
 # table at most: by LONGEST_TURN^8 / 8! times the product of the distances to the nodes, 660 between the first two.
 LONGEST_TURN = 0.1
@@ -32,7 +32,7 @@ def set_between(flow: LinearFlow, memory: Memory, step: float, unit: float) -> N
 def read_between(table: Array, units: float) -> None:
     """Fill the row BETWEEN of `table` (26, 168) for a step of `units`, up to 16, from the first rows, by Lagrange's
     polynomials."""
-    first = min(max(int(units) - BEHIND, 0), UNITS + 1 - NODES)
+    first = min(max(int(units) - NODES_BEHIND, 0), UNITS + 1 - NODES)
     d0 = units - first
     d1, d2, d3, d4, d5, d6, d7 = d0 - 1.0, d0 - 2.0, d0 - 3.0, d0 - 4.0, d0 - 5.0, d0 - 6.0, d0 - 7.0
     low2 = d0 * d1

@@ -22,7 +22,7 @@ SMOOTH_PIECES = 3.0
 
 
 @njit_inner
-def is_bumpy(track: Track) -> bool:
+def has_corners(track: Track) -> bool:
     """Whether some path has corners on its floor."""
     bumpy = False
     for spall in range(track.spalls.shape[0]):

@@ -25,7 +25,7 @@ from physics.motion import MotionModel
 Motion = tuple[float, float, float, float]
 
 # A direction has three pairs of amplitudes: real and imaginary part of a swinging mode, or two modes that only decay.
-PAIRS, AXIS, AMPLITUDES = 3, 6, 12
+PAIRS, PER_AXIS, AMPLITUDES = 3, 6, 12
 # What is read from the amplitudes, and what the loads alone add to it: displacement, velocity and acceleration of the
 # inner relative to the outer ring but for the contact force, acceleration of the resonator, the direction's six states
 # (among them the outer ring's displacement and velocity), the outer ring's acceleration but for the force on it.
@@ -72,7 +72,7 @@ def linear_flow(motion: MotionModel, stiffness: tuple[float, float], damping: tu
     matrices = np.array([_matrix(motion, axis, stiffness[axis], damping[axis]) for axis in range(2)])
     fastest = 0.0
     for axis, modes in enumerate(_modes(motion, matrices, stiffness)):
-        column = axis * AXIS
+        column = axis * PER_AXIS
         for value, shape in modes:
             fastest = max(fastest, abs(value))
             read = _read(motion, shape)
@@ -135,7 +135,7 @@ def _modes(
     """Eigenvalue and eigenvector (6) of every mode along x and y, swinging ones first, of each pair the upper one."""
     # Velocities are scaled by a frequency so that displacements and velocities are of one size.
     fast = np.sqrt(np.array(stiffness) / motion.inner_mass + 1.0)
-    scale = np.ones((2, AXIS))
+    scale = np.ones((2, PER_AXIS))
     scale[:, 1::2] = fast[:, None]
     scaled = matrices / scale[:, :, None] * scale[:, None, :]
     values, vectors = np.linalg.eig(scaled)
@@ -154,7 +154,7 @@ def _modes(
 
 def _nearest(values: NDArray[Any]) -> float:
     """Least distance of two eigenvalues of a direction (2, 6), over their size."""
-    apart = np.abs(values[:, :, None] - values[:, None, :]) + np.abs(values).max() * np.eye(AXIS)
+    apart = np.abs(values[:, :, None] - values[:, None, :]) + np.abs(values).max() * np.eye(PER_AXIS)
     return float((apart / np.abs(values[:, :, None])).min())
 
 
@@ -177,7 +177,7 @@ def _loaded(motion: MotionModel, axis: int, matrix: Array, stiffness: float) -> 
         return np.real(still), np.zeros(READINGS), np.zeros(READINGS)
     speed = motion.shaft_speed
     push = np.array([0.0, turning / motion.inner_mass, 0.0, 0.0, 0.0, 0.0])
-    state = np.linalg.solve(1j * speed * np.eye(AXIS) - matrix, push).tolist()
+    state = np.linalg.solve(1j * speed * np.eye(PER_AXIS) - matrix, push).tolist()
     swing = _read(motion, state)
     swing[ACCELERATION], swing[OUTER_ACCELERATION] = 1j * speed * swing[VELOCITY], 1j * speed * state[3]
     return np.real(still), np.real(swing), -np.imag(swing)
@@ -187,15 +187,15 @@ def _loaded(motion: MotionModel, axis: int, matrix: Array, stiffness: float) -> 
 def weigh(shares: Array, first: int, amplitudes: Array, axis: int) -> float:
     """Sum of six `shares` from the place `first` on times the `amplitudes` (12,) of one direction."""
     total = 0.0
-    for k in range(AXIS):
-        total += shares[first + k] * amplitudes[axis * AXIS + k]
+    for k in range(PER_AXIS):
+        total += shares[first + k] * amplitudes[axis * PER_AXIS + k]
     return total
 
 
 @njit_inline
 def reading(flow: LinearFlow, row: int, amplitudes: Array, axis: int) -> float:
     """What the amplitudes (12,) of one direction add to a reading."""
-    return weigh(flow.read[row], axis * AXIS, amplitudes, axis)
+    return weigh(flow.read[row], axis * PER_AXIS, amplitudes, axis)
 
 
 @njit_inline
@@ -225,7 +225,7 @@ def amplitudes_of(flow: LinearFlow, state: Array) -> Array:
     """Amplitudes (12,) of the physical state (12,) at t = 0."""
     found = np.zeros(AMPLITUDES)
     for axis in range(2):
-        here = slice(axis * AXIS, (axis + 1) * AXIS)
+        here = slice(axis * PER_AXIS, (axis + 1) * PER_AXIS)
         away = state[[axis, 6 + axis, 2 + axis, 8 + axis, 4 + axis, 10 + axis]]
         away = away - flow.rest[axis, STATES] - flow.cosine[axis, STATES]
         found[here] = np.linalg.solve(flow.read[STATES, here], away)
@@ -250,7 +250,7 @@ def slowest_decay(flow: LinearFlow) -> float:
 
 def complex_modes(flow: LinearFlow, values: tuple[Array, ...], axis: int) -> NDArray[np.complex128]:
     """Of the real numbers `values` (N times 12) those of one direction as complex ones (N, modes)."""
-    pairs = np.array(values)[:, axis * AXIS : (axis + 1) * AXIS].reshape(-1, PAIRS, 2)
+    pairs = np.array(values)[:, axis * PER_AXIS : (axis + 1) * PER_AXIS].reshape(-1, PAIRS, 2)
     swinging = flow.twist[axis * PAIRS : (axis + 1) * PAIRS] > 0.0
     upper, decaying = pairs[:, swinging], pairs[:, ~swinging]
     return np.concatenate([upper[:, :, 0] + 1j * upper[:, :, 1], decaying.reshape(len(values), -1)], axis=1)

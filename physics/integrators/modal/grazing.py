@@ -50,7 +50,7 @@ class Ride(NamedTuple):
 
 
 @njit_inner
-def has_bumps(track: Track) -> bool:
+def has_relief(track: Track) -> bool:
     """Whether some spall's path has features finer than steps need be."""
     relief = 0.0
     for spall in range(track.spalls.shape[0]):

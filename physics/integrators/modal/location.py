@@ -40,4 +40,4 @@ def locate(
     set_rest(flow, time + step, rest)
     if not grazing:
         memory.suspects[:] = 0.0
-    return earliest_change(contacts, Way(time, step, ends[0], ends[1]), trial.halfway > 0, memory.suspects)
+    return earliest_change(contacts, Way(time, step, ends[0], ends[1]), trial.contradicted > 0, memory.suspects)

@@ -15,12 +15,12 @@ from physics.contact.contact_set import count_changes, note_motion, reset_contac
 from physics.contact.forces import ACTIVE, Contacts, of_ball, set_time
 from physics.integrators.modal.approach import leads_astray
 from physics.integrators.modal.between import set_between
-from physics.integrators.modal.bumps import is_bumpy
+from physics.integrators.modal.bumps import has_corners
 from physics.integrators.modal.carried import step_carried
 from physics.integrators.modal.changes import AGAIN, CHANGED, TAKE, change_sides, land_on_ridge, look
 from physics.integrators.modal.choice import Choice, next_step
 from physics.integrators.modal.flow import LinearFlow, set_rest
-from physics.integrators.modal.grazing import has_bumps, mark_grazing
+from physics.integrators.modal.grazing import has_relief, mark_grazing
 from physics.integrators.modal.judgement import (
     dipped,
     is_carried,
@@ -88,7 +88,7 @@ def begin(contacts: Contacts, flow: LinearFlow, grid: ModalGrid, memory: Memory,
     clock[:] = 0.0
     marks[:] = 0
     clock[PACE], marks[BALL], marks[ON_GRID] = min(grid.interval, memory.longest), NO_BALL, 1
-    marks[BUMPY] = int(is_bumpy(contacts.track))
+    marks[BUMPY] = int(has_corners(contacts.track))
     clock[SQUARES] = record(flow, state, rest, 0, output)
     set_tolerance(grid, memory, 1)
     keep(contacts.balls, flow, rest, 0.0, state, force, 0, output)
@@ -212,7 +212,7 @@ def consider(
 ) -> tuple[int, tuple[float, float]]:
     """What to do about the `trial` of `units`: TAKE it, AGAIN or CHANGED; and the remaining contact force (N) at its
     end."""
-    contradicted = trial.halfway + count_changes(contacts) > 0
+    contradicted = trial.contradicted + count_changes(contacts) > 0
     if dipped(contacts, grid, memory, trial.step, contradicted):
         return AGAIN, trial.after
     grazing = bumps and mark_grazing(contacts, memory.noted, trial.time, trial.step, memory.suspects) > 0
@@ -253,7 +253,7 @@ def march_modal(
     force = remaining_force(contacts, flow, now, rest)
     most = MOST_STEPS_PER_SAMPLE * grid.samples + SPARE_STEPS
     room, smallest = output.change_time.size, SMALLEST_STEP_SHARE * grid.interval
-    bumps, ridges = has_bumps(contacts.track), has_ridges(stops)
+    bumps, ridges = has_relief(contacts.track), has_ridges(stops)
     while marks[PASSED] < (grid.samples - 1) * UNITS and output.tally[LOGGED] < room:
         if output.tally[STEPS] > most:
             return OUT_OF_STEPS

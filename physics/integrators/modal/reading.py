@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from physics._jit import njit_inline
 from physics.arrays import Array
-from physics.integrators.modal.flow import AXIS, DISPLACEMENT, PAIRS, VELOCITY, Motion, weigh
+from physics.integrators.modal.flow import DISPLACEMENT, PAIRS, PER_AXIS, VELOCITY, Motion, weigh
 from physics.integrators.modal.layout import (
     INSIDE_OTHER,
     MOTION_READINGS,
@@ -21,7 +21,7 @@ def turn(weights: Array, first: int, stride: int, start: Array, end: Array) -> N
     """Put into `end` (12,) the amplitudes `start` after the free turn from `first` on, along y `stride` further."""
     for axis in range(2):
         for pair in range(PAIRS):
-            place, part = axis * stride + first + TURN_NUMBERS * pair, axis * AXIS + 2 * pair
+            place, part = axis * stride + first + TURN_NUMBERS * pair, axis * PER_AXIS + 2 * pair
             a, b = start[part], start[part + 1]
             end[part] = weights[place] * a + weights[place + 1] * b
             end[part + 1] = weights[place + 2] * a + weights[place + 3] * b
@@ -33,9 +33,9 @@ def push(weights: Array, first: int, stride: int, course: Array, end: Array) -> 
     for axis in range(2):
         kicks = axis * stride + first
         c0, c1, c2, c3, c4 = course[axis, 0], course[axis, 1], course[axis, 2], course[axis, 3], course[axis, 4]
-        for part in range(AXIS):
+        for part in range(PER_AXIS):
             place = kicks + POWERS * part
-            end[axis * AXIS + part] += (
+            end[axis * PER_AXIS + part] += (
                 (weights[place] * c0 + weights[place + 1] * c1)
                 + (weights[place + 2] * c2 + weights[place + 3] * c3)
                 + weights[place + 4] * c4
@@ -46,7 +46,7 @@ def push(weights: Array, first: int, stride: int, course: Array, end: Array) -> 
 def read_inside(weights: Array, section: int, axis: int, start: Array, course: Array) -> float:
     """What a sample inside a step reads along one axis, but for the loads, from the amplitudes `start` (12,) and the
     `course` (2, 5) of the contact force."""
-    first, part = axis * INSIDE_OTHER + SECTION * section, axis * AXIS
+    first, part = axis * INSIDE_OTHER + SECTION * section, axis * PER_AXIS
     kick = first + POWERS_AT
     c0, c1, c2, c3, c4 = course[axis, 0], course[axis, 1], course[axis, 2], course[axis, 3], course[axis, 4]
     # In pairs, so that fewer operations wait for each other than in a chain.
@@ -63,8 +63,8 @@ def free_motion(weights: Array, first: int, start: Array, rest: Array) -> Motion
     return (
         rest[0, DISPLACEMENT] + weigh(weights, first, start, 0),
         rest[1, DISPLACEMENT] + weigh(weights, OTHER + first, start, 1),
-        rest[0, VELOCITY] + weigh(weights, first + AXIS, start, 0),
-        rest[1, VELOCITY] + weigh(weights, OTHER + first + AXIS, start, 1),
+        rest[0, VELOCITY] + weigh(weights, first + PER_AXIS, start, 0),
+        rest[1, VELOCITY] + weigh(weights, OTHER + first + PER_AXIS, start, 1),
     )
 
 

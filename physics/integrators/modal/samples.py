@@ -8,11 +8,11 @@ from physics.contact.forces import FORCE, Contacts, of_ball, set_time
 from physics.contact.turning import cosine_sine
 from physics.integrators.modal.choice import Choice
 from physics.integrators.modal.flow import (
-    AXIS,
     OUTER,
     OUTER_ACCELERATION,
     OUTER_SPEED,
     OUTPUT,
+    PER_AXIS,
     LinearFlow,
     physical_state,
     reading,
@@ -67,9 +67,9 @@ def keep_outer(
     Given single arrays: each that is handed over costs about as much as its work.
     """
     for axis in range(2):
-        outer[0, sample, axis] = weigh(read[OUTER], axis * AXIS, state, axis) + rest[axis, OUTER]
-        outer[1, sample, axis] = weigh(read[OUTER_SPEED], axis * AXIS, state, axis) + rest[axis, OUTER_SPEED]
-        rate = weigh(read[OUTER_ACCELERATION], axis * AXIS, state, axis) + force[axis] / outer_mass
+        outer[0, sample, axis] = weigh(read[OUTER], axis * PER_AXIS, state, axis) + rest[axis, OUTER]
+        outer[1, sample, axis] = weigh(read[OUTER_SPEED], axis * PER_AXIS, state, axis) + rest[axis, OUTER_SPEED]
+        rate = weigh(read[OUTER_ACCELERATION], axis * PER_AXIS, state, axis) + force[axis] / outer_mass
         outer[2, sample, axis] = rate + rest[axis, OUTER_ACCELERATION]
 
 

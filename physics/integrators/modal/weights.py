@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from physics._jit import njit_inline, njit_lean
 from physics.arrays import Array
-from physics.integrators.modal.flow import AXIS, DISPLACEMENT, PAIRS, LinearFlow
+from physics.integrators.modal.flow import DISPLACEMENT, PAIRS, PER_AXIS, LinearFlow
 from physics.integrators.modal.layout import (
     AT_END,
     AT_HALF,
@@ -55,7 +55,7 @@ def set_step(flow: LinearFlow, weights: Array, step: float, phi: Array) -> None:
         set_turn(weights, base + TURN + TURN_NUMBERS * own, twist, whole[0, re], whole[0, im])
         for read in range(MOTION_READINGS):
             a, b = flow.read[DISPLACEMENT + read, re], flow.read[DISPLACEMENT + read, im]
-            place = base + AXIS * read + here
+            place = base + PER_AXIS * read + here
             weights[place + HALF], weights[place + HALF + 1] = _read_turned(twist, a, b, half[0, re], half[0, im])
             weights[place + END], weights[place + END + 1] = _read_turned(twist, a, b, whole[0, re], whole[0, im])
         scale, early = step, 0.5 * step

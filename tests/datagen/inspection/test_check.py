@@ -94,7 +94,7 @@ def test_a_check_that_is_interrupted_leaves_no_file_open(tiny_corpus: Path, monk
     assert closed == [tiny_corpus]
 
 
-@pytest.mark.parametrize("share", [0.1, 0.35, 0.6, 0.85])
+@pytest.mark.parametrize("share", [0.35, *(pytest.param(share, marks=pytest.mark.slow) for share in (0.1, 0.6, 0.85))])
 def test_one_flipped_bit_anywhere_in_a_shard_is_found(copy: Path, share: float) -> None:
     path = shard_path(copy, 2)
     content = bytearray(path.read_bytes())
@@ -102,12 +102,6 @@ def test_one_flipped_bit_anywhere_in_a_shard_is_found(copy: Path, share: float) 
     path.write_bytes(content)
     problems = check_corpus(copy).problems
     assert any("shard_000002.nc: its bytes have changed" in sentence for sentence in problems)
-
-
-def test_a_shard_cut_short_is_found(copy: Path) -> None:
-    path = shard_path(copy, 2)
-    path.write_bytes(path.read_bytes()[:-1000])
-    assert any("its bytes have changed" in sentence for sentence in check_corpus(copy).problems)
 
 
 def test_a_missing_shard_and_one_without_sidecar_are_found(copy: Path) -> None:
@@ -205,23 +199,6 @@ def with_another_load(dataset: xarray.Dataset) -> xarray.Dataset:
     texts = dataset["scenario"].values.astype(object)
     texts[0] = texts[0].replace('"W":346.0', '"W":346.5')
     return dataset.assign(scenario=("record", texts.astype(np.str_), dataset["scenario"].attrs))
-
-
-def test_a_scenario_that_the_recipe_does_not_give_is_found(copy: Path) -> None:
-    forge(copy, 0, with_another_load)
-    assert "the recipe gives record 0 another scenario" in only_problem(copy)
-
-
-def test_a_signal_that_its_scenario_does_not_give_is_found(copy: Path) -> None:
-    def amplify(dataset: xarray.Dataset) -> xarray.Dataset:
-        dataset["acceleration"] = dataset["acceleration"] * np.float32(1.01)
-        return dataset.assign(acceleration=dataset["acceleration"].assign_attrs(units="m s-2", long_name="a"))
-
-    forge(copy, 0, amplify)
-    assert check_corpus(copy).sound
-    problems = check_corpus(copy, remake=1).problems
-    assert len(problems) == 1
-    assert "record 0 simulated again from its scenario differs by 0.0099 of its RMS" in problems[0]
 
 
 def test_an_index_with_a_lost_row_is_found(copy: Path) -> None:
@@ -353,9 +330,9 @@ def test_a_signal_that_the_recipe_stores_of_every_record_is_found_missing(
     assert problem in check_corpus(copy).problems
 
 
-def test_what_another_version_drew_is_not_held_against_this_ones_drawing(copy: Path) -> None:
+def test_a_scenario_that_the_recipe_does_not_give_is_found_unless_another_version_drew_it(copy: Path) -> None:
     forge(copy, 0, with_another_load)
-    assert "another scenario" in only_problem(copy)
+    assert "the recipe gives record 0 another scenario" in only_problem(copy)
     for path in (copy / "manifest.json", *(copy / "shards").glob("*.json")):
         content = json.loads(path.read_text())
         content["identity"]["program_hash"] = "0" * 16
@@ -380,14 +357,21 @@ def test_a_record_that_cannot_be_made_again_is_a_problem_and_not_the_end(
     assert (verdict.remade, verdict.largest_difference) == ((), 0.0)
 
 
-@pytest.mark.parametrize(("factor", "found"), [(1.0008, 0), (1.0015, 1)])
-def test_a_record_made_again_may_differ_by_a_thousandth_of_its_rms(factor: float, found: int, copy: Path) -> None:
+@pytest.mark.parametrize(("factor", "told"), [(1.0008, ()), (1.0015, ("differs by 0.0015 of its RMS",))])
+def test_a_record_made_again_may_differ_by_a_thousandth_of_its_rms(
+    factor: float, told: tuple[str, ...], copy: Path
+) -> None:
     def amplify(dataset: xarray.Dataset) -> xarray.Dataset:
         attributes = dataset["acceleration"].attrs
         return dataset.assign(acceleration=(dataset["acceleration"] * np.float32(factor)).assign_attrs(attributes))
 
     forge(copy, 0, amplify)
-    assert len(check_corpus(copy, remake=1).problems) == found
+    assert check_corpus(copy).sound
+    problems = check_corpus(copy, remake=1).problems
+    assert len(problems) == len(told)
+    assert all(
+        f"record 0 simulated again from its scenario {text}" in line for text, line in zip(told, problems, strict=True)
+    )
 
 
 def test_a_path_that_this_locale_cannot_encode_is_told_with_what_to_do(

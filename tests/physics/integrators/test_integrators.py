@@ -42,7 +42,6 @@ def test_the_order_is_4_where_every_ball_keeps_contact(reference_scene):
     error = errors(scene, substeps)
     slopes = -np.diff(np.log(error)) / np.diff(np.log(substeps))
     assert slopes == pytest.approx(4.0, abs=0.15)  # 4.13 to 4.04; from 12 steps on round-off is in sight
-    assert order(substeps, error) == pytest.approx(4.0, abs=0.15)
 
 
 def test_the_order_is_4_on_the_extended_spall_where_no_ball_leaves_contact_abruptly(reference_scene):
@@ -51,7 +50,7 @@ def test_the_order_is_4_on_the_extended_spall_where_no_ball_leaves_contact_abrup
     assert order(substeps, error) == pytest.approx(4.0, abs=0.15)  # from 4 steps on round-off is in sight
 
 
-@pytest.mark.parametrize("name", ["G1", "F1", "G1s", "F1s", "G1p", "F1p"])
+@pytest.mark.parametrize("name", ["F1", "G1s", "G1p", "F1p"])
 def test_the_order_is_n_plus_1_where_balls_lose_and_make_contact(name, reference_scene):
     scene = reference_scene(name, 0.15)
     substeps = (1, 2, 3, 4, 6, 8, 12)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from kernels import (
     foretell,
-    has_bumps,
+    has_relief,
     mark_grazing,
     note_motion,
     press,
@@ -29,10 +29,10 @@ from physics.imperfections import Imperfections, Waviness
 from physics.integrators.modal.error_growth import ringing
 from physics.integrators.modal.flow import (
     AMPLITUDES,
-    AXIS,
     DISPLACEMENT,
     OUTER_ACCELERATION,
     OUTPUT,
+    PER_AXIS,
     amplitudes_of,
     linear_flow,
     physical_state,
@@ -129,7 +129,7 @@ def step_weights(flow, step):
 
 def kicked(weights, first, stride, power):
     """Amplitudes (12,) that one power of the force adds."""
-    places = first + power + POWERS * np.arange(AXIS)
+    places = first + power + POWERS * np.arange(PER_AXIS)
     return np.concatenate([weights[places], weights[stride + places]])
 
 
@@ -567,8 +567,8 @@ def test_the_relief_of_a_path_bounds_how_far_it_strays_from_any_chord(reference_
 def test_a_smooth_path_has_no_relief_and_is_not_searched(reference_scene):
     scene = reference_scene("G2", 0.01)
     assert not build_path(scene.spalls[0], scene.rig.bearing).relief.any()
-    assert not has_bumps(assemble(scene).track)
-    assert has_bumps(assemble(reference_scene("G2r", 0.01)).track)
+    assert not has_relief(assemble(scene).track)
+    assert has_relief(assemble(reference_scene("G2r", 0.01)).track)
 
 
 def test_no_step_is_taken_back_for_ever():

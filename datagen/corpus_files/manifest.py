@@ -14,7 +14,7 @@ from datagen.corpus_files.shard import Failure, Sidecar, has_finished_shards, sh
 from datagen.errors import BadInput
 from datagen.files.atomic import write_atomically
 from datagen.files.places import MANIFEST
-from datagen.scenarios.redraw import Refused, add_refused
+from datagen.scenarios.refused import Refused, add_refused
 
 Span = tuple[int, int]
 ANEW = (

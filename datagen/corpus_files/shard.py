@@ -14,7 +14,7 @@ from datagen.corpus_files.json_values import UNREADABLE, amount, row, text, whol
 from datagen.files.atomic import sweep_temporaries, write_atomically
 from datagen.files.netcdf import netcdf_bytes
 from datagen.files.places import SHARDS
-from datagen.scenarios.redraw import Refused
+from datagen.scenarios.refused import Refused
 from labels.schema import LABELS
 
 if TYPE_CHECKING:

@@ -50,17 +50,22 @@ def preview_png(source: str | Path, record: int, say: Say = ignore) -> tuple[byt
     """
     from datagen.drawing.portrait_sources import corpus_portrait, recipe_portrait
     from datagen.drawing.sheet import sheet_png
+    from datagen.inspection.recipe_check import is_recipe
 
     folder = Path(source)
-    if folder.is_dir() and not (manifest_path(folder).exists() or (folder / FILE_NAME).exists()):
+    if is_recipe(folder):
+        portrait = recipe_portrait(source, record, say)
+        return sheet_png(portrait), _facts(portrait)
+    manifest = manifest_path(folder)
+    if not manifest.exists():
         if has_finished_shards(folder):
-            raise no_corpus(folder, manifest_path(folder).name)
-        problem = f"neither a corpus ({manifest_path(folder).name}) nor a recipe ({FILE_NAME}) is in this folder"
-        raise BadInput(problem, file=str(folder))
-    if manifest_path(folder).is_file() and read_manifest(folder).imported:
+            raise no_corpus(folder, manifest.name)
+        raise BadInput(
+            f"neither a corpus ({manifest.name}) nor a recipe ({FILE_NAME}) is in this folder", file=str(folder)
+        )
+    if read_manifest(folder).imported:
         return _measured_png(folder, record)
-    held = manifest_path(folder).is_file()
-    portrait = corpus_portrait(folder, record) if held else recipe_portrait(source, record, say)
+    portrait = corpus_portrait(folder, record)
     return sheet_png(portrait), _facts(portrait)
 
 

@@ -15,7 +15,7 @@ from datagen.counts import counted
 from datagen.files.places import from_home
 from datagen.files.time_stamps import HDF5_SIGNATURE
 from datagen.inspection.asked_for import asked_of
-from datagen.scenarios.redraw import Refused
+from datagen.scenarios.refused import Refused
 from labels.schema import LABELS, UNKNOWN
 
 if TYPE_CHECKING:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from datagen.recipes.recipe import Recipe
-from datagen.scenarios.redraw import Redraw, Refused, add_refused, count_refused
+from datagen.scenarios.refused import Redraw, Refused, add_refused, count_refused
 from datagen.scenarios.scenario import Scenario
 
 # Share of the planned records. If fewer were drawn again, the sizes and places are still nearly those of the recipe.

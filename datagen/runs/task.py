@@ -19,7 +19,7 @@ from datagen.recipes.recipe import Recipe
 from datagen.records.record import Record, make_record
 from datagen.runs.plan import PlannedShard
 from datagen.runs.redraws import counted_redraws
-from datagen.scenarios.redraw import Redraw, count_refused
+from datagen.scenarios.refused import Redraw, count_refused
 from datagen.scenarios.sampling import draw_scenario
 from physics.outcome import SimulationFailed
 

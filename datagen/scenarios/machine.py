@@ -17,7 +17,8 @@ from datagen.scenarios.drawn_background import draw_background
 from datagen.scenarios.drawn_rig import draw_rig
 from datagen.scenarios.imperfections import draw_imperfections
 from datagen.scenarios.picker import Picker
-from datagen.scenarios.redraw import MOST_ATTEMPTS, Redraw, given_up
+from datagen.scenarios.redraw import MOST_ATTEMPTS, given_up
+from datagen.scenarios.refused import Redraw
 from datagen.scenarios.turns import Turn
 from labels.band import holds_a_line
 from labels.envelope import resonance_band

@@ -19,7 +19,8 @@ from datagen.scenarios.intended_kind import IntendedKind
 from datagen.scenarios.machine import Machine, draw_machine
 from datagen.scenarios.optional import if_given
 from datagen.scenarios.picker import DEGREES_PER_RADIAN, Picker
-from datagen.scenarios.redraw import MOST_ATTEMPTS, Redraw, given_up
+from datagen.scenarios.redraw import MOST_ATTEMPTS, given_up
+from datagen.scenarios.refused import Redraw
 from datagen.scenarios.scenario import Scenario, Seeds
 from physics.bearing import Bearing
 from physics.cage import CagePath, draw_slip_knots

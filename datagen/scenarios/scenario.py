@@ -9,7 +9,7 @@ import numpy as np
 
 from datagen.scenarios.accuracy import Accuracy
 from datagen.scenarios.background import Background, NoiseTarget, Stretch
-from datagen.scenarios.redraw import Redraw
+from datagen.scenarios.refused import Redraw
 from datagen.scenarios.streams import stream
 from labels.description import condition
 from physics.scene import Scene

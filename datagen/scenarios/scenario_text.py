@@ -9,7 +9,7 @@ from typing import Any
 
 from datagen.errors import BadInput
 from datagen.scenarios.accuracy import Accuracy
-from datagen.scenarios.redraw import Redraw
+from datagen.scenarios.refused import Redraw
 from datagen.scenarios.sampling_text import sampling_data
 from datagen.scenarios.scenario import Scenario, Seeds
 from datagen.scenarios.sensor_text import background_data, background_of, chain_data, chain_of

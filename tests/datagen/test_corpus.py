@@ -32,6 +32,14 @@ def corpus(tiny_corpus: Path) -> Corpus:
     return Corpus(tiny_corpus)
 
 
+def test_a_corpus_is_opened_without_the_packages_that_only_its_making_needs() -> None:
+    listing = (
+        "import sys, datagen.corpus; print([name for name in ('pydantic', 'scipy', 'numba') if name in sys.modules])"
+    )
+    done = subprocess.run([sys.executable, "-c", listing], cwd=ROOT, capture_output=True, text=True, check=True)
+    assert done.stdout == "[]\n"
+
+
 def test_labels_are_read_without_opening_a_shard(tiny_corpus: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(netCDF4, "Dataset", None)
     monkeypatch.setattr(xarray, "open_dataset", None)

@@ -10,7 +10,7 @@ import pytest
 from datagen.corpus_files.format import Identity
 from datagen.corpus_files.manifest import Manifest, ShardEntry, Span, add_spans
 from datagen.corpus_files.shard import Failure, Sidecar
-from datagen.scenarios.redraw import Refused
+from datagen.scenarios.refused import Refused
 
 IDENTITY = Identity("r" * 16, "m" * 16, "f" * 16, "p" * 16)
 

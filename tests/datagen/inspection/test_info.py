@@ -24,7 +24,7 @@ from datagen.inspection.info import Info, Range, corpus_info
 from datagen.recipes.recipe import Recipe, load_recipe
 from datagen.runs.generate import generate
 from datagen.runs.workers import Engine
-from datagen.scenarios.redraw import Redraw, Refused, add_refused, count_refused
+from datagen.scenarios.refused import Redraw, Refused, add_refused, count_refused
 from datagen.scenarios.sampling import draw_scenario
 from labels.schema import LABEL, LABELS
 

@@ -11,7 +11,8 @@ from datagen.recipes.defect_settings import Combination
 from datagen.recipes.recipe import load_recipe
 from datagen.recipes.recipe_schema import recipe_schema
 from datagen.scenarios.deciders import DECIDERS
-from datagen.scenarios.redraw import MOST_ATTEMPTS, Redraw, given_up
+from datagen.scenarios.redraw import MOST_ATTEMPTS, given_up
+from datagen.scenarios.refused import Redraw
 from physics.backgrounds.gear_mesh import GearMesh
 from physics.backgrounds.impulses import Impulses, Resonance
 from physics.backgrounds.pink import PinkNoise

@@ -15,7 +15,7 @@ from datagen.errors import BadInput
 from datagen.recipes.recipe import load_recipe
 from datagen.scenarios.accuracy import Accuracy
 from datagen.scenarios.background import Background, NoiseTarget, Stretch
-from datagen.scenarios.redraw import Redraw
+from datagen.scenarios.refused import Redraw
 from datagen.scenarios.sampling import draw_scenario
 from datagen.scenarios.scenario import Scenario, Seeds
 from datagen.scenarios.scenario_text import scenario_json, scenario_of

@@ -86,9 +86,10 @@ def test_a_folder_with_a_corpus_is_a_corpus_whatever_else_lies_there(copy, tiny_
     shutil.copy(tiny_recipe, copy / "recipe.toml")
     assert "14 records in" in run("check", copy, "--remake", "0").stdout
     (copy / "manifest.json").unlink()
-    lost = run("check", copy)
-    assert lost.exit_code == 2
-    assert "the manifest.json of this corpus is lost" in lost.stderr
+    for command in (("check", copy), ("preview", copy, "--out", copy / "record.png")):
+        lost = run(*command)
+        assert lost.exit_code == 2
+        assert "the manifest.json of this corpus is lost" in lost.stderr
 
 
 def test_a_folder_without_either_is_no_corpus_as_before(tmp_path):

@@ -8,15 +8,17 @@ from __future__ import annotations
 
 import argparse
 import json
+import math
 import re
 from pathlib import Path
 from typing import Any
 
 from marked_tables import write_marked
 
+from datagen.sizing.record_errors import NOISE_LEVELS, RULES, noise_name
+
 PAGE = Path(__file__).with_name("size.md")
-LEVELS = ("clean", "20 dB", "10 dB", "5 dB", "0 dB")
-RULES = ("full size, own lag", "half size, own lag", "plain envelope lag", "own lag and static release")
+LEVELS = tuple(noise_name(level) + ("" if level == math.inf else " dB") for level in NOISE_LEVELS)
 
 
 def figures(summary: dict[str, Any]) -> dict[str, dict[str, Any]]:

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from datagen.benchmark.impulse_signal import Ingredients, draw_train
+from datagen.benchmark.options import TRAIN
 from datagen.benchmark.plan import Benchmark
 from datagen.benchmark.reading_policy import Reading
 from datagen.benchmark.record_rows import feature_rows, signal_rows
@@ -39,7 +40,7 @@ def ingredients_of(train: Path) -> Ingredients | None:
     names = [field.name for field in fields(Ingredients)]
     if left_out is not None and left_out not in names:
         allowed = ", ".join((NAME, *(f"{NAME}-without-{name}" for name in names)))
-        raise BadInput("no such ingredient", field="--train", value=text, allowed=allowed)
+        raise BadInput("no such ingredient", field=TRAIN, value=text, allowed=allowed)
     return Ingredients(**{left_out: False}) if left_out else Ingredients()
 
 

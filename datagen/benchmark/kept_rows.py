@@ -18,7 +18,7 @@ from pathlib import Path
 import numpy as np
 
 from datagen.benchmark.machines import LearnedMachines, machines
-from datagen.benchmark.options import TRANSFER_ROWS, Learning
+from datagen.benchmark.options import TRAIN, TRANSFER_ROWS, Learning
 from datagen.benchmark.plan import training_reading_of
 from datagen.benchmark.rows import Rows
 from datagen.benchmark.training import FEWEST_BEARINGS, TrainingSet, training_records, training_set
@@ -50,7 +50,7 @@ class KeptRows:
         with np.load(file) as kept:
             if kept["features"].tolist() != list(FEATURE_NAMES):
                 problem = "the features have changed since these rows were kept"
-                raise BadInput(problem, field="--train", value=TRANSFER_ROWS, allowed="a corpus of the recipe transfer")
+                raise BadInput(problem, field=TRAIN, value=TRANSFER_ROWS, allowed="a corpus of the recipe transfer")
             table, record, axis = kept["table"].astype(np.float64), kept["record"], kept["axis"]
             rows = Rows(table, record.astype(np.int64), axis.astype(np.int64), kept["noisy"])
             whole = TrainingSet(rows, np.array(CLASSES)[kept["class_of_row"]], kept["bearings"][kept["bearing_of_row"]])

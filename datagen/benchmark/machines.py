@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from datagen.benchmark.options import TEST_ON
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
 from datagen.judging.splits import TEST
@@ -59,5 +60,5 @@ def unseen_records(tested: Corpus, learned: LearnedMachines) -> pandas.DataFrame
     if chosen.empty:
         problem = "all its virtual bearings, or all outside its split test, were learned from"
         allowed = "a corpus of a recipe with another seed, or one with a split test"
-        raise BadInput(problem, file=str(tested.folder), field="--test", value=None, allowed=allowed)
+        raise BadInput(problem, file=str(tested.folder), field=TEST_ON, value=None, allowed=allowed)
     return chosen

@@ -11,11 +11,11 @@ from typing import Any
 from datagen.benchmark.answers import estimator_name
 from datagen.benchmark.impulse_training import NAME, ingredients_of
 from datagen.benchmark.kept_rows import is_kept
-from datagen.benchmark.options import FEATURES, TRANSFER_ROWS, WINDOWS, Learning, Scoring
+from datagen.benchmark.options import FEATURES, SAVE, TEST_ON, TRAIN, TRANSFER_ROWS, WINDOWS, Learning, Scoring
 from datagen.benchmark.plan import Benchmark
 from datagen.benchmark.predictions import FACTS
 from datagen.benchmark.reading_policy import LEAST_NOISE_DB
-from datagen.benchmark.trained import SAVE, TRAIN, is_saved
+from datagen.benchmark.trained import is_saved
 from datagen.benchmark.verdicts import RULE
 from datagen.corpus import Corpus
 from datagen.corpus_files.manifest import manifest_path, no_corpus
@@ -112,7 +112,7 @@ def _require_use(asked: Benchmark) -> None:
     yet to be learned from, or read, by them. Features that are kept were read at many bandwidths: they go with any."""
     train, save, learning = asked.train, asked.save, asked.learning
     if save is None and not asked.tests:
-        raise BadInput("nothing to score on", field="--test", allowed=f"a corpus, or {SAVE} FILE to learn only")
+        raise BadInput("nothing to score on", field=TEST_ON, allowed=f"a corpus, or {SAVE} FILE to learn only")
     if save is not None:
         require_file(save, SAVE)
         if learning.estimator is not None:
@@ -139,15 +139,15 @@ def _option(name: str) -> str:
 def _require_folders(train: Path, tests: tuple[Path, ...], windows: bool) -> None:
     if not is_saved(train) and not is_kept(train) and ingredients_of(train) is None:
         if _corpus(train, TRAIN, TRAINING).manifest.imported:
-            raise BadInput("classifiers learn from simulated corpora only", file=str(train), field="--train")
+            raise BadInput("classifiers learn from simulated corpora only", file=str(train), field=TRAIN)
     elif windows:
         raise BadInput(f"of {train} there are features only", field="--input", value=WINDOWS, allowed=FEATURES)
     for place, folder in enumerate(tests):
         if folder.resolve() in (earlier.resolve() for earlier in tests[:place]):
-            raise BadInput("this corpus is named twice", file=str(folder), field="--test")
-        corpus = _corpus(folder, "--test", "the folder of a corpus, simulated or imported")
+            raise BadInput("this corpus is named twice", file=str(folder), field=TEST_ON)
+        corpus = _corpus(folder, TEST_ON, "the folder of a corpus, simulated or imported")
         if corpus.labels.empty:
-            raise BadInput("this corpus has no records", file=str(folder), field="--test")
+            raise BadInput("this corpus has no records", file=str(folder), field=TEST_ON)
         if corpus.manifest.imported and not os.access(folder, os.W_OK):
             raise no_log(folder)
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from datagen.benchmark.machines import LearnedMachines
-from datagen.benchmark.options import Learning
+from datagen.benchmark.options import SAVE, TRAIN, Learning
 from datagen.benchmark.training import Model
 from datagen.errors import BadInput
 from datagen.files.atomic import write_file
@@ -18,7 +18,6 @@ from datagen.versions import measured_on, program_hash
 from labels.classifier.rule import Rule
 
 FORMAT = "spallgen classifiers 1"
-SAVE, TRAIN = "--save", "--train"
 AGAIN = f"learn again, with {SAVE}"
 MADE_WITH = ("python", "scikit-learn", "numpy", "scipy")
 # The packages that make rows and learn from them, by what they are called in the head of a file.

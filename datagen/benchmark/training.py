@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from datagen.benchmark.answers import class_probability, estimator_name
 from datagen.benchmark.corpus_rows import read_rows
-from datagen.benchmark.options import Learning
+from datagen.benchmark.options import TRAIN, Learning
 from datagen.benchmark.reading_policy import Reading
 from datagen.benchmark.rows import Rows
 from datagen.corpus import Corpus
@@ -111,7 +111,7 @@ def training_records(folder: Path, also_tested: bool, first: int | None = None) 
     if chosen["bearing_id"].nunique() < FEWEST_BEARINGS:
         allowed = f"a corpus with {FEWEST_BEARINGS} virtual bearings or more outside its split test"
         raise BadInput(
-            "too few virtual bearings to learn from", file=str(folder), field="--train", value=None, allowed=allowed
+            "too few virtual bearings to learn from", file=str(folder), field=TRAIN, value=None, allowed=allowed
         )
     return chosen
 
@@ -141,9 +141,7 @@ def train_rule(training: TrainingSet) -> Rule:
     healthy = training.rows[(training.classes == HEALTHY) & ~training.rows.noisy]
     if not len(healthy):
         problem = "no healthy record that can be judged, to set the rule's threshold on"
-        raise BadInput(
-            problem, field="--train", allowed="one or more; `spallgen features` says why a record is not judged"
-        )
+        raise BadInput(problem, field=TRAIN, allowed="one or more; `spallgen features` says why a record is not judged")
     return fit_rule(healthy.table, healthy.record, healthy.axis)
 
 
@@ -171,7 +169,7 @@ def train_models(training: TrainingSet, learner: str, step: Say = ignore) -> lis
             fitted.append((name, _fitted(name, training)))
         return [Model(name, classifier, classifier.alarm_) for name, classifier in fitted]
     except ValueError as problem:
-        raise BadInput(f"cannot learn from this corpus: {problem}", field="--train") from None
+        raise BadInput(f"cannot learn from this corpus: {problem}", field=TRAIN) from None
 
 
 def _fitted(name: str, training: TrainingSet) -> SpallClassifier:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from datagen.benchmark.options import TRANSFER_ROWS, Learning, Options, Scoring
+from datagen.benchmark.options import SAVE, TEST_ON, TRAIN, TRANSFER_ROWS, Learning, Options, Scoring
 from datagen.commands.grouped import grouped
 from datagen.commands.program import JsonFile, command, show_tables, write_json
 from datagen.commands.progress_display import show_steps
@@ -43,17 +43,15 @@ FAR_FROM_STATED = (
 Train = Annotated[
     Path,
     Option(
-        "--train",
+        TRAIN,
         metavar="DIR|FILE",
         help="Simulated corpus to learn from, or a file that --save wrote; transfer-rows are the features of the "
         "corpus transfer, which come with the program; impulse-trains, or impulse-trains-without-INGREDIENT, to "
         "compare with signals without contact physics, which are made on the spot (docs/own_estimators.md).",
     ),
 ]
-Folders = Annotated[list[Path] | None, Option("--test", metavar="DIR", help="Corpus to score on; may be given again.")]
-Save = Annotated[
-    Path | None, Option("--save", metavar="FILE", help="Save what was learned; --train FILE takes it later.")
-]
+Folders = Annotated[list[Path] | None, Option(TEST_ON, metavar="DIR", help="Corpus to score on; may be given again.")]
+Save = Annotated[Path | None, Option(SAVE, metavar="FILE", help="Save what was learned; --train FILE takes it later.")]
 More = Annotated[list[Path] | None, Argument(metavar="DIR", help="More corpora to score on.")]
 # The options that stand for the fields of Learning and Scoring, by their names.
 OPTIONS = {

@@ -7,7 +7,7 @@ from typing import Annotated
 from pydantic import AfterValidator, Field, model_validator
 
 from datagen.distributions.kinds import Distribution, Fixed, Uniform
-from datagen.recipes.quantities import Frequency, Share
+from datagen.recipes.quantities import RATIOS_DB, Frequency, Share
 from datagen.recipes.recording_settings import RecordedLayerSettings
 from datagen.settings.table import Between, Table, Whole, at_most_one, refuse, rising
 from physics.backgrounds.gear_mesh import MOST_SIDEBANDS, MOST_TEETH
@@ -115,11 +115,11 @@ class BackgroundSettings(Table):
     """Stretches of a recording of a healthy machine."""
     snr_band_hz: tuple[float, float] | None = Field(default=None, strict=False)
     """Band of the label snr_band_db, Hz; by default that of the envelope."""
-    snr_db: Annotated[Distribution, Between(-100.0, 200.0)] | None = None
+    snr_db: Annotated[Distribution, RATIOS_DB] | None = None
     """Scales the whole background of each record to this ratio up to half the sampling rate, dB; signal and background
     count without their means, so a tone of less than a period a record hardly counts. Where either has no power, the
     level stays as it is, and the label validity says so."""
-    snr_band_db: Annotated[Distribution, Between(-100.0, 200.0)] | None = None
+    snr_band_db: Annotated[Distribution, RATIOS_DB] | None = None
     """The same over snr_band_hz, dB."""
 
     @property

@@ -12,7 +12,7 @@ from pydantic import BaseModel, Field, WithJsonSchema, model_validator
 
 from datagen.distributions.kinds import Distribution, Fixed
 from datagen.recipes.profile_table import ProfileTable
-from datagen.recipes.quantities import Degrees, Share
+from datagen.recipes.quantities import EXTENTS_MM, Degrees, Share
 from datagen.settings.table import Between, OneOf, Table, Whole, at_most_one, possible_words, refuse
 from physics.bearing import RACES
 from physics.spall import ARC_ROUNDING, EXTENDED_FROM
@@ -43,7 +43,7 @@ class SpallSettings(Table):
     """From the centre of each spall to that of the next, degrees; anywhere if not given."""
     extent_deg: Arc | None = None
     """Arc covered by the spall, degrees."""
-    extent_mm: Annotated[Distribution, Between(0.0, 1e4, above=True)] | None = None
+    extent_mm: Annotated[Distribution, EXTENTS_MM] | None = None
     """Length of the spall along its raceway, mm."""
     extent_spacing: Annotated[Distribution, Between(0.0, 100.0, above=True)] | None = None
     """Arc covered by the spall, in ball spacings."""

@@ -1,4 +1,5 @@
-"""Kinds of number that several tables of a recipe share, each drawn from a distribution."""
+"""Ranges of numbers that recipes share with the SPEC of recordings, and kinds of number, each drawn from a
+distribution, that several tables of a recipe share."""
 
 from __future__ import annotations
 
@@ -6,6 +7,10 @@ from typing import Annotated
 
 from datagen.distributions.kinds import Distribution
 from datagen.settings.table import Angle, Between
+
+RATES_HZ = Between(100.0, 1e7)
+RATIOS_DB = Between(-100.0, 200.0)
+EXTENTS_MM = Between(0.0, 1e4, above=True)
 
 Degrees = Annotated[Distribution, Angle()]
 Frequency = Annotated[Distribution, Between(1e-3, 1e7)]  # Hz

@@ -7,6 +7,7 @@ from typing import Annotated
 from pydantic import Field, model_validator
 
 from datagen.distributions.kinds import Distribution, Fixed
+from datagen.recipes.quantities import RATES_HZ
 from datagen.settings.table import Between, Table, refuse
 from labels.band import holds_a_line
 
@@ -16,7 +17,7 @@ FEWEST_STORED_SAMPLES = 16
 class Signal(Table):
     """How every record is sampled; drawn once for each virtual machine if not fixed."""
 
-    rate_hz: Annotated[Distribution, Between(100.0, 1e7)]
+    rate_hz: Annotated[Distribution, RATES_HZ]
     """Sampling rate, Hz. A machine takes a sixteenth of the frequency of its fastest mode or more: about 659 Hz for the
     gearbox rig, 619 Hz for the fan rig. With the default envelope_band_hz it takes more than twice its resonance."""
     duration_s: Annotated[Distribution, Between(0.001, 3600.0)]

@@ -10,24 +10,25 @@ from pydantic import AfterValidator, BeforeValidator, Field, field_validator
 from pydantic_core import PydanticCustomError
 
 from datagen.recipes.operation_settings import FASTEST_RPM
+from datagen.recipes.quantities import EXTENTS_MM, RATES_HZ, RATIOS_DB
 from datagen.settings.table import Between, Table, refuse
 from physics.angular_speed import RPM_PER_HZ
 from physics.operation import HEAVIEST_LOAD
 from physics.spelling import suggestion
 
 LOWEST_ORDER = 1e-3
-# Those of recipes where these have the setting too; wide enough elsewhere for any machine, not for a slip of units.
+# Wide enough for any machine where recipes have no such setting, and not for a slip of units.
 RANGES = {
-    "rate_hz": Between(100.0, 1e7),
+    "rate_hz": RATES_HZ,
     "scale": Between(),
     "speed_rpm": Between(0.0, FASTEST_RPM),
     "speed_hz": Between(0.0, FASTEST_RPM / RPM_PER_HZ),
     "nominal_speed_rpm": Between(0.0, FASTEST_RPM),
-    "extent_mm": Between(0.0, 1e4, above=True),
+    "extent_mm": EXTENTS_MM,
     "extent_deg": Between(0.0, 360.0, above=True),
     "depth_um": Between(0.0, 1e5, above=True),
     "load_n": Between(0.0, HEAVIEST_LOAD),
-    "snr_db": Between(-100.0, 200.0),
+    "snr_db": RATIOS_DB,
     **dict.fromkeys(("bpfo", "bpfi", "bsf"), Between(LOWEST_ORDER, 1e3)),
     "ftf": Between(LOWEST_ORDER, 1.0),
 }

@@ -405,3 +405,12 @@ def test_a_stopped_machine_is_known_by_its_recorders_step_also_if_a_glitch_was_r
 def test_a_signal_of_one_value_has_no_step():
     assert recorder_step(np.full(9, 2.0)) == math.inf
     assert recorder_step(np.array([3.0, 1.0, 1.25, 3.0])) == 0.25
+
+
+def test_of_axes_rejected_for_different_reasons_the_first_is_told(monkeypatch):
+    reasons = [STOPPED, "another"]
+    monkeypatch.setattr(
+        "datagen.benchmark.record_rows.signal_rows",
+        lambda *given: [Row(np.zeros(len(FEATURE_NAMES)), False, reasons[given[4][-1]], shaft_hz=30.0)],
+    )
+    assert record_rows(np.hstack([shaking(3000), shaking(3000)]), labels(), Reading()).facts.reason == STOPPED

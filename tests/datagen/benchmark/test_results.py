@@ -37,10 +37,13 @@ def test_a_report_holds_plain_numbers_wherever_scores_are_and_parts_of_a_group_l
     results = Results("out/t", Options(), {"training_records": 7, "importances": {}}, [test], 1.5)
     found = json.loads(plain_json(results.to_dict()))
     assert list(found) == ["train", "options", "training_records", "importances", "tests", "seconds"]
+    assert found["options"]["speed_error"] == 0.02
+    assert (found["train"], found["training_records"], found["seconds"]) == ("out/t", 7, 1.5)
     (held,) = found["tests"]
     assert list(held) == [*OF_A_CORPUS, "predictions", "noise"]
     (noisy,) = held["noise"]
     assert list(noisy) == ["snr_db", "draws", *OF_A_CORPUS]
+    assert (noisy["snr_db"], noisy["draws"], noisy["corpus"], noisy["records"]) == (-5.0, 2, "out/a", 1)
     assert held["models"]["rule"] == noisy["models"]["rule"]
     assert held["models"]["rule"]["detection_auc"] == {"value": 0.5, "low": 0.25, "high": 0.75}
     assert "minus_rule" not in held["models"]["rule"]
@@ -59,3 +62,8 @@ def test_a_report_holds_plain_numbers_wherever_scores_are_and_parts_of_a_group_l
 
 def test_results_without_a_learning_curve_have_none():
     assert Results("out/t", Options(), {"importances": {}}, [], 1.0).learning_curve == {}
+
+
+def test_the_points_of_a_learning_curve_are_those_of_the_facts():
+    curve = {"forest": [{"records": 10}]}
+    assert Results("out/t", Options(), {"learning_curve": curve}, [], 1.0).learning_curve == curve

@@ -53,7 +53,7 @@ def test_a_geometry_that_no_bearing_has_tells_nothing_and_is_called_so(change):
     assert what_is_missing(UNKNOWN | {"speed_rpm": 1800.0}) == "geometry unknown"
 
 
-@pytest.mark.parametrize("orders", [(0.8, 1.2), (5.415, 3.585), (4.5, 4.5), (-1.0, 10.0)])
+@pytest.mark.parametrize("orders", [(0.8, 1.2), (5.415, 3.585), (4.5, 4.5), (-1.0, 10.0), (0.0, 9.0)])
 def test_orders_of_no_bearing_tell_nothing(orders):
     outer, inner = orders
     assert known_kinematics(UNKNOWN | {"bpfo": outer, "bpfi": inner, "speed_rpm": 1800.0}) is None
@@ -96,5 +96,7 @@ def test_a_stated_order_of_ball_spin_is_taken() -> None:
     assert known_kinematics(UNKNOWN | stated).ball_spin == 2.357
 
 
-def test_a_speed_that_is_no_number_is_unknown() -> None:
-    assert known_kinematics(GEOMETRY | {"speed_rpm": "fast"}) is None
+@pytest.mark.parametrize("speed", ["fast", None, 0.0, -1800.0])
+def test_a_speed_that_is_no_number_or_not_above_0_tells_nothing(speed: object) -> None:
+    for known in (GEOMETRY, UNKNOWN | {"balls": 9, "bpfo": 3.585}):
+        assert known_kinematics(known | {"speed_rpm": speed}) is None

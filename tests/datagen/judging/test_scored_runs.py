@@ -2,7 +2,9 @@
 
 import json
 import math
+import re
 from datetime import UTC, datetime
+from pathlib import Path
 
 import pytest
 
@@ -28,3 +30,16 @@ def test_a_score_that_does_not_exist_is_null_as_json_knows_no_nan(tmp_path):
     line = json.loads(log_path(tmp_path).read_text(), parse_constant=pytest.fail)
     assert line["scores"] == {"arc_error": None, "answered": 0}
     assert line["sizes"] == {"3": 1.5}
+
+
+def test_a_line_tells_the_second_and_a_folder_by_its_path(tmp_path):
+    write_line(tmp_path, {"train": Path("out/a")})
+    line = json.loads(log_path(tmp_path).read_text())
+    assert line["train"] == "out/a"
+    assert re.fullmatch(r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d\+00:00", line["time"])
+
+
+def test_a_log_that_cannot_be_written_is_told_with_the_cause(tmp_path):
+    log_path(tmp_path).mkdir()
+    with pytest.raises(BadInput, match=r"it cannot be written: Is a directory; allowed: a corpus that can be written"):
+        write_line(tmp_path, {})

@@ -6,7 +6,7 @@ import pytest
 from command_line import run
 
 from datagen.errors import BadInput
-from datagen.judging.user_code import load_user_code
+from datagen.judging.user_code import load_user_code, user_code
 
 BROKEN = {
     "h_syntax": "def broken(:\n",
@@ -63,3 +63,25 @@ def test_both_commands_refuse_it_alike(here, command):
     assert done.exit_code == 2
     assert "--estimator" in done.output
     assert "h_syntax.py" in done.output
+
+
+def test_a_name_that_ends_with_its_colon_is_no_name_of_anything(here):
+    with pytest.raises(BadInput) as refused:
+        load_user_code("h_good:", "module:Class")
+    assert str(refused.value) == '--estimator = "h_good:"; allowed: module:Class'
+
+
+def test_the_working_folder_goes_before_all_other_places(here, monkeypatch):
+    (here / "other").mkdir()
+    (here / "other" / "h_twice.py").write_text("where = 'other'\n")
+    (here / "h_twice.py").write_text("where = 'here'\n")
+    monkeypatch.syspath_prepend(here / "other")
+    assert load_user_code("h_twice:where", "") == "here"
+
+
+def test_a_place_beside_our_code_is_told():
+    with (
+        pytest.raises(BadInput, match=r"it fails: KeyError: 'no' \(.*test_user_code\.py, line \d+\)"),
+        user_code("a:A", "it fails"),
+    ):
+        raise KeyError("no")

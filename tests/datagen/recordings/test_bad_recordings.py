@@ -232,12 +232,15 @@ def test_records_of_unknown_bearings_may_be_in_several_splits(bring: Bring, mat:
         ("load_n\n1\n", "t.csv, line 1: file: this column is missing"),
         ("file,location\n,inner\n", "t.csv, line 2: file: this cell is empty"),
         ("file,location\na.mat\n", "t.csv, line 2: 1 cells, but the table has 2 columns"),
+        ("file;load_n\na.mat\n", "t.csv, line 2: 1 cells, but the table has 2 columns"),
         ("file,location\na.mat,iner\n", 't.csv, line 2: location = "iner"; allowed: none, outer, inner'),
         ("file,load_n\na.mat,much\n", 't.csv, line 2: load_n = "much"; allowed: a number from 0 to 1e+07, or'),
         ("file,speed_rpm\na.mat,5\n", "t.csv, line 2: speed_rpm: two sources for the speed: the SPEC also states"),
         ("file,location\nz.mat,inner\n", "a.mat is not in the table t.csv; allowed: a row for each file"),
         ("file,location\na.mat,inner\nz.mat,inner\n", 't.csv, line 3: file = "z.mat": no such file below'),
         ("file,location\na.mat,inner\nsub,inner\n", 't.csv, line 3: file = "sub": this is a folder below'),
+        ("file,location\na.mat,inner\nz.mat|sub,inner\n", 't.csv, line 3: file = "z.mat|sub": this is a folder'),
+        ("file,location\nz.mat,inner\na.mat,inner\n", 't.csv, line 2: file = "z.mat": no such file below'),
         ("file,location\n", "t.csv: the table has no rows"),
         ("file,location\n,\n \n", "t.csv: the table has no rows"),
         ('file,location\n"a.mat,inner\n', "t.csv, line 2: not a row of a CSV table: unexpected end of data"),
@@ -450,3 +453,58 @@ def test_a_wave_file_of_a_rate_that_no_recording_has_is_refused(bring: Bring, tm
     spec = '[[recording]]\nname = "all"\nfiles = "*.wav"\nunit = "g"\ny = "data"\n'
     with pytest.raises(BadInput, match=r"a\.wav: rate_hz = 50\.0: the file's own; allowed"):
         bring(spec)
+
+
+@pytest.mark.parametrize("column", ["csv", "channel", "tach", "envelope_band_hz", "notes"])
+def test_settings_that_are_no_single_cell_are_no_columns_of_a_label_table(
+    column: str, bring: Bring, mat: Mat, tmp_path: Path
+) -> None:
+    mat("a.mat")
+    (tmp_path / "t.csv").write_text(f"file,{column}\na.mat,\n")
+    assert f"t.csv, line 1: {column}: unknown column" in refusal(bring, GOOD + 'table = "t.csv"\n', tmp_path)
+
+
+def test_four_figures_before_a_comma_are_no_thousands(bring: Bring, mat: Mat, tmp_path: Path) -> None:
+    mat("a.mat")
+    mat("b.mat")
+    (tmp_path / "t.csv").write_text("file;speed_rpm\na.mat;1796,125\nb.mat;1797.5\n")
+    assert bring(GOOD + 'table = "t.csv"\n').labels["speed_rpm"].tolist() == [1796.125, 1797.5]
+
+
+@pytest.mark.parametrize("size", [15, 16])
+def test_a_recording_of_sixteen_samples_is_the_shortest(size: int, bring: Bring, mat: Mat, tmp_path: Path) -> None:
+    mat("a.mat", noise(size))
+    if size == 16:
+        assert bring(GOOD).waveform(0).shape == (16, 1)
+    else:
+        assert 'y = "sig": holds 15 samples; allowed: at least 16 samples' in refusal(bring, GOOD, tmp_path)
+
+
+def test_points_and_commas_of_notes_and_names_say_nothing_of_the_numbers_of_a_label_table(
+    bring: Bring, mat: Mat, tmp_path: Path
+) -> None:
+    mat("a.mat")
+    mat("b.mat")
+    (tmp_path / "t.csv").write_text("file;snr_db;hp;bearing_id\na.mat;2.5;1,500;3,500\nb.mat;3.5;2;4.5\n")
+    labels = bring(GOOD + 'table = "t.csv"\nnote_columns = ["hp"]\n').labels
+    assert labels["snr_db"].tolist() == [2.5, 3.5]
+    assert labels["bearing_id"].tolist() == ["3,500", "4.5"]
+
+
+def test_a_variable_without_samples_is_told_as_such(bring: Bring, mat: Mat, tmp_path: Path) -> None:
+    mat("a.mat", other=np.zeros((0, 0)))
+    assert 'y = "other": holds 0 samples; ' in refusal(bring, GOOD.replace('"sig"', '"other"'), tmp_path)
+
+
+def test_one_number_is_no_channel(bring: Bring, tmp_path: Path) -> None:
+    np.savez(tmp_path / "a.npz", sig=np.float64(5.0))
+    assert 'y = "sig": is not a single channel (one number); ' in refusal(bring, GOOD.replace(".mat", ".npz"), tmp_path)
+
+
+@pytest.mark.parametrize("pattern", [".", "/a/*.mat", ""])
+def test_a_pattern_that_is_none_is_refused_with_one_that_is(
+    pattern: str, bring: Bring, mat: Mat, tmp_path: Path
+) -> None:
+    mat("a.mat")
+    message = refusal(bring, GOOD.replace("*.mat", pattern), tmp_path)
+    assert f'files = "{pattern}"; allowed: ' in message

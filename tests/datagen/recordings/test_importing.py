@@ -31,6 +31,7 @@ from datagen.recordings.importing import import_recordings
 from datagen.recordings.listing import Request
 from datagen.recordings.recorded import Recorded, read_recording
 from datagen.recordings.spec import load_spec
+from datagen.recordings.staging import staged
 from labels.envelope import band_envelope
 from labels.schema import LABEL
 
@@ -986,3 +987,18 @@ def test_a_shard_is_filled_to_its_limit(bring: Bring, tmp_path: Path, monkeypatc
     monkeypatch.setattr("datagen.recordings.import_plan.SHARD_BYTES", 800.0)
     spec = '[[recording]]\nname = "all"\nfiles = "a.npy"\nunit = "g"\nrate_hz = 1000\ny = "data"\ncut_s = 0.1\n'
     assert [entry.records for entry in bring(spec).manifest.shards] == [2, 2]
+
+
+def test_a_folder_that_somebody_filled_meanwhile_is_refused_and_kept(tmp_path: Path) -> None:
+    folder = tmp_path / "corpus"
+    with pytest.raises(BadInput, match="--out: cannot write here: Directory not empty"), staged(folder):
+        (folder / "mine").mkdir(parents=True)
+    assert [*tmp_path.rglob("*")] == [folder, folder / "mine"]
+
+
+def test_a_folder_that_cannot_be_made_is_refused_by_its_name(tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    folder = tmp_path / "file" / "corpus"
+    with pytest.raises(BadInput) as refused, staged(folder):
+        pytest.fail("was filled")
+    assert str(refused.value) == f"{folder}: --out: cannot write here: Not a directory"

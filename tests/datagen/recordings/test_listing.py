@@ -290,3 +290,40 @@ def test_several_rows_of_a_table_about_one_file_that_a_pattern_finds_are_as_many
     assert labels[["recording", "duration_s", "location"]].values.tolist() == [
         ["all", 0.4, "inner"], ["half", 0.2, "outer"],
     ]  # fmt: skip
+
+
+def test_a_table_may_lie_below_the_root_alone(bring: Bring, mat: Mat, tmp_path: Path) -> None:
+    mat("below/a.mat")
+    (tmp_path / "below" / "t.csv").write_text("file,location\na.mat,outer\n")
+    spec = 'root = "below"\n[[recording]]\nname = "all"\ntable = "t.csv"\nunit = "g"\nrate_hz = 1000\ny = "sig"\n'
+    assert bring(spec).labels["location"].tolist() == ["outer"]
+
+
+def test_a_folder_below_the_root_is_no_table_and_is_called_what_it_is(bring: Bring, mat: Mat, tmp_path: Path) -> None:
+    mat("below/sub/a.mat")
+    with pytest.raises(BadInput, match=r'spec\.toml: table = "sub": this is a folder'):
+        bring('root = "below"\n' + SPEC + 'table = "sub"\n')
+
+
+def test_of_many_files_that_one_name_of_a_table_means_a_few_are_named(bring: Bring, mat: Mat, tmp_path: Path) -> None:
+    for folder in range(12):
+        mat(f"{folder}/r.mat")
+    (tmp_path / "t.csv").write_text("file\nr.mat\n")
+    with pytest.raises(BadInput) as refused:
+        bring(SPEC + 'table = "t.csv"\n')
+    assert f"12 files below {tmp_path} match: 0/r.mat, 1/r.mat, " in str(refused.value)
+    assert str(refused.value).count("/r.mat") == 4
+
+
+def test_of_the_names_that_a_row_offers_the_first_is_told_as_absent(mat: Mat, tmp_path: Path) -> None:
+    mat("a.mat")
+    (tmp_path / "t.csv").write_text("file\na.mat\nb.mat|c.mat\n")
+    spec = load_spec_of(tmp_path, SPEC + 'table = "t.csv"\nabsent_files = "skip"\n')
+    assert importing.import_recordings(spec, tmp_path / "out").absent == ("b.mat",)
+
+
+def test_files_of_several_patterns_come_in_the_order_of_the_patterns(bring: Bring, mat: Mat) -> None:
+    for name in ("a1", "a2", "c1"):
+        mat(f"{name}.mat")
+    corpus = bring(SPEC + 'files = ["c*.mat", "a2.mat", "a*.mat"]\n')
+    assert corpus.labels["recording"].tolist() == ["c1", "a2", "a1"]

@@ -96,3 +96,11 @@ def test_blank_lines_around_a_single_column_are_no_samples(layout: str, bring: B
     (tmp_path / "a.csv").write_text("\n".join([*head, *cells, "", "", ""]))
     spec = GAPS.replace("*.mat", "a.csv")
     assert bring((spec.replace('"sig"', '"1"') if layout else spec) + layout).waveform(0).shape == (2000, 1)
+
+
+@pytest.mark.parametrize(("missing", "advised"), [(10, True), (11, False)])
+def test_filling_is_advised_where_it_would_do_alone(missing: int, advised: bool, bring: Bring, mat: Mat) -> None:
+    mat("a.mat", np.where(np.arange(2000) < missing, np.nan, np.sin(np.arange(2000.0))))
+    with pytest.raises(BadInput, match=f"{missing} of 2000 samples are not finite") as refused:
+        bring(GAPS)
+    assert ("missing_samples" in str(refused.value)) is advised

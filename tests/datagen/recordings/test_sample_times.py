@@ -125,3 +125,12 @@ def test_hours_of_a_clock_in_place_of_times_come_with_a_way_out(bring: Bring, tm
             '[[recording]]\nname = "all"\nfiles = "a.csv"\nunit = "g"\ny = "a"\n'
             'rate_hz = {variable = "t", times = true}\n'
         )
+
+
+def test_a_rate_has_nine_digits_at_most() -> None:
+    assert rate_of(np.arange(60_000) / (25_600.0 / 3.0), Path("a.npy"), "t") == 8533.33333
+
+
+def test_a_step_that_no_rate_has_is_refused() -> None:
+    with pytest.raises(BadInput, match="is not a column of rising times"):
+        rate_of(np.array([1e-320]), Path("a.npy"), "t")

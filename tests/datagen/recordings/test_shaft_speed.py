@@ -531,3 +531,22 @@ def test_a_channel_of_speed_counts_with_its_factor(factor: float, bring: Bring, 
     assert corpus.labels["speed_rpm"][0] == pytest.approx(1200.0, rel=1e-3)
     # 2 s at 20 turns a second on average, from 10 to 30.
     assert corpus.waveform(0, "shaft_angle")[-1] / (2.0 * np.pi) == pytest.approx(40.0, rel=1e-3)
+
+
+def test_the_first_time_that_falls_is_told(bring: Bring, mat: Mat) -> None:
+    mat("a.mat", tacho=np.array([0.1, 0.3, 0.2, 0.25, 0.15]))
+    with pytest.raises(BadInput, match=r"0\.2 follows 0\.3; allowed: times that rise"):
+        bring(LISTED)
+
+
+def test_a_gap_among_the_times_of_pulses_is_no_end_of_them(bring: Bring, mat: Mat) -> None:
+    mat("a.mat", tacho=np.array([0.1, np.nan, 0.2, 0.3, np.nan]))
+    with pytest.raises(BadInput, match=r"2 of 5 samples are not finite numbers, the first at sample 1 .*times alone"):
+        bring(LISTED)
+
+
+def test_words_behind_the_times_of_pulses_are_no_empty_cells(bring: Bring, tmp_path: Path) -> None:
+    rows = [f"{k % 7},{0.02 * k if k < 20 else '' if k < 399 else 'end'}" for k in range(400)]
+    (tmp_path / "a.csv").write_text("\n".join(["sig,tacho", *rows]))
+    with pytest.raises(BadInput, match=r"380 of 400 cells are not finite numbers.*; allowed: times alone"):
+        bring(LISTED.replace("*.mat", "*.csv"))

@@ -472,3 +472,9 @@ def test_other_numbers_are_not_called_ones_of_thousands(cell: str, bring: Bring,
 def test_a_byte_order_mark_is_no_matter_however_the_encoding_is_spelt(encoding: str, tmp_path: Path) -> None:
     (tmp_path / "a.csv").write_text("acc\n" + "1.5\n" * 20, encoding="utf-8-sig")
     assert list(read_arrays(tmp_path / "a.csv", None, CsvLayout(encoding=encoding))) == ["acc"]
+
+
+def test_of_a_long_cell_that_is_no_number_forty_signs_are_shown(bring: Bring, tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("\n".join(["a,b", *["1,2"] * 50, f"{'x' * 60},2"]))
+    with pytest.raises(BadInput, match=rf'the first is "{"x" * 40}"'):
+        bring('[[recording]]\nname = "all"\nfiles = "a.csv"\nunit = "g"\nrate_hz = 1000\ny = "a"\n')

@@ -158,3 +158,17 @@ def test_a_kurtosis_of_two_hundredths_is_like_noise_and_of_six_clear():
     table[:, FEATURE_NAMES.index("median_band_kurtosis")] = [0.02, 0.021, 0.059, 0.06]
     found = clearness(table)
     assert found[0] == 0.0 < found[1] < found[2] < found[3] == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize(("hidden", "level"), [(20, 0.0), (19, 4.0)])
+def test_twenty_rows_like_noise_have_a_level_of_their_own_and_fewer_have_none(hidden, level):
+    # Of the rows like noise all say 0, of the others 4: more than half of all rows.
+    clear = np.arange(100) >= hidden
+    given = probability_of(np.where(clear, 4.0, 0.0)), rows(np.where(clear, 1.0, 0.0)), np.arange(100), ~clear
+    assert logit(np.array([fit_alarm(*given, ONE_AXIS[:100], 0.05).in_noise])) == pytest.approx([level])
+
+
+def test_all_healthy_records_may_be_allowed_to_alarm():
+    given = healthy(50, 5)
+    alarm = fit_alarm(*given, ONE_AXIS[: given[0].size], 1.0)
+    assert alarm.in_noise <= alarm.in_clear < 0.6

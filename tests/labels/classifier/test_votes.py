@@ -91,3 +91,22 @@ def test_of_few_records_the_highest_alone_says_by_how_much_votes_are_raised():
     level = np.concatenate([means + apart, means - apart])[:, None]
     owner, axis = np.tile(np.arange(4), 2), np.repeat([0, 1], 4)
     assert raised(level, owner, axis) == pytest.approx(4.0)
+
+
+def test_no_record_asked_for_has_no_mean():
+    assert averaged(np.array([0.8, 0.2]), np.array([3, 5]), np.empty(0, np.int64)).shape == (0,)
+
+
+def test_shares_count_beside_each_other_whatever_their_sum():
+    found = averaged(np.array([8.0, 4.0]), np.array([7, 7]), np.array([7]), np.array([0.3, 0.1]))
+    assert found == pytest.approx([7.0])
+
+
+def test_records_of_a_single_axis_have_no_say_in_how_much_a_vote_raises():
+    level = np.array([[9.0], [8.0], [0.0], [6.0]])  # of record 2 the higher axis draws the vote from 3 to 4
+    assert raised(level, np.array([0, 1, 2, 2]), np.array([0, 0, 0, 1])) == pytest.approx(1.0)
+
+
+def test_the_loudest_axis_is_the_one_whose_highest_column_is_highest():
+    # Axis 0 counts twice, for its 6, though both columns of axis 1 are higher on average: 17/3 where the mean has 5.5.
+    assert raised(np.array([[0.0, 6.0], [5.0, 5.0]]), np.array([0, 0]), np.array([0, 1])) == pytest.approx(1.0 / 6.0)

@@ -64,7 +64,9 @@ def test_a_model_fitted_on_other_columns_is_refused(learned, model):
     names[[3, 4]] = names[[4, 3]]
     with pytest.raises(MisfitCalibration, match=f'column 3 of {model} was "score" when it was fitted, and is "passes"'):
         Calibration.from_arrays(arrays | {key: names})
-    with pytest.raises(MisfitCalibration, match=f"{model} was fitted on {names.size - 1} columns, and there are"):
+    with pytest.raises(
+        MisfitCalibration, match=f"{model} was fitted on {names.size - 1} columns, and there are {names.size} "
+    ):
         Calibration.from_arrays(arrays | {key: names[:-1]})
     del arrays[key]
     with pytest.raises(MisfitCalibration, match=f"does not say on which columns {model} was fitted"):
@@ -78,3 +80,23 @@ def test_the_calibration_that_comes_with_the_package_fits_and_says_where_it_come
                         ("with_load.rank", shipped.with_load.rank), ("blind.doubt", shipped.blind.doubt),
                         ("with_load.lag", shipped.with_load.lag.centre)):  # fmt: skip
         assert trees.feature.max() == len(FITTED_ON[name]) - 1, name  # every one of them looks at its last column
+
+
+@pytest.mark.parametrize("model", FITTED_ON)
+def test_a_model_fitted_on_another_last_column_is_refused(learned, model):
+    arrays, key = learned.to_arrays(), f"{model}.columns"
+    renamed = np.array([*arrays[key][:-1], "another"])
+    with pytest.raises(MisfitCalibration, match=f'column {renamed.size - 1} of {model} was "another" when it was'):
+        Calibration.from_arrays(arrays | {key: renamed})
+
+
+@pytest.mark.parametrize("key", ["origin", "pair_score.base", "blind.most", "with_load.arc.reach"])
+def test_a_calibration_of_which_anything_is_missing_is_not_taken(learned, key):
+    arrays = learned.to_arrays()
+    del arrays[key]
+    with pytest.raises(KeyError, match=key):
+        Calibration.from_arrays(arrays)
+
+
+def test_trees_that_are_sure_leave_an_interval_of_a_hundredth(saying):
+    assert Guess(saying(0.0), saying(0.0), 1.0).correction(np.zeros(3)) == (1.0, pytest.approx(math.exp(0.01)))

@@ -78,7 +78,7 @@ def passes_of_noise(passes, race, samples_a_pass):
 
 @pytest.mark.parametrize(
     ("passes", "samples_a_pass", "refused"),
-    [(5.9, 40.0, SizeOutcome.TOO_SHORT), (6.1, 40.0, None), (50.0, 15.9, SizeOutcome.TOO_COARSE), (50.0, 16.1, None)],
+    [(5.9, 40.0, SizeOutcome.TOO_SHORT), (6.0, 40.0, None), (50.0, 15.9, SizeOutcome.TOO_COARSE), (50.0, 16.1, None)],
 )
 def test_six_passes_of_sixteen_samples_over_the_race_that_balls_pass_faster_are_enough(
     judging, passes, samples_a_pass, refused
@@ -184,3 +184,29 @@ def test_the_arc_of_the_lag_is_its_share_of_the_mean_pass(judging):
     evidence = one_pair(0.0, 20.0)
     tracked = replace(evidence, track=replace(evidence.track, period=0.09))
     assert judging(0.1, 1.0, 1.0).judge(tracked, GEARBOX).lag_arc == pytest.approx(math.radians(0.2 * 30.0))
+
+
+@pytest.mark.parametrize(
+    ("passes", "samples_a_pass", "outcome"),
+    [(5.9, 40.0, SizeOutcome.TOO_SHORT), (50.0, 15.9, SizeOutcome.TOO_COARSE), (0.0, 40.0, SizeOutcome.NO_SIGNAL)],
+)
+def test_the_method_is_told_where_no_size_is(judging, passes, samples_a_pass, outcome):
+    noise, rate = passes_of_noise(passes or 50.0, "inner", samples_a_pass)
+    loaded = replace(GEARBOX, load=100.0, load_deflection=1e10)
+    for situation, method in ((GEARBOX, "prior shortening"), (loaded, "shortening from load and Hertz factor")):
+        found = judging(0.1, 1.0, 1.0).estimate(noise if passes else 0.0 * noise, rate, situation)
+        assert (found.outcome, found.method) == (outcome, f"event pair, {method}")
+
+
+def test_an_event_lies_1_8_samples_before_the_peak_of_its_energy(judging):
+    found = judging(0.1, 1.0, 1.0).judge(one_pair(0.0, 20.0), GEARBOX)
+    assert found.event_times[:, 0] * RATE == pytest.approx([198.2, 398.2])
+
+
+def test_a_signal_in_single_precision_is_judged_as_in_double(judging, pulse_train):
+    signal = pulse_train(60.0 / 65536.0, GEARBOX.pass_periods()["outer"], duration=0.15).signal.astype(np.float32)
+    estimator = judging(0.1, 1.0, 1.0)
+    single, double = (estimator.estimate(signal.astype(kind), 65536.0, GEARBOX) for kind in (np.float32, np.float64))
+    assert single.found
+    assert np.array_equal(single.event_times, double.event_times)
+    assert single.lag == double.lag

@@ -24,3 +24,8 @@ def test_no_more_lead_than_are_judged_and_all_differ():
     assert order.size == LEADING
     assert np.all(np.diff(score[order]) < 0.0)
     assert np.diff(np.sort(np.log(pairs.lag[order]))).min() > DISTINCT
+
+
+def test_lags_five_hundredths_apart_are_two_and_of_equal_scores_the_first_leads():
+    order = leading_order(_pairs([100.0, 105.0, 95.0, 200.0]), np.full(4, 0.5))
+    assert order.tolist() == [0, 2, 3]  # log(1.05) is 0.049, log(0.95) −0.051

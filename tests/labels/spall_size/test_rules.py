@@ -103,3 +103,22 @@ def test_lags_are_looked_for_up_to_95_hundredths_of_a_pass(share, found):
     else:
         assert estimate.outcome is SizeOutcome.NO_EVENT_PAIR
         assert math.isnan(estimate.extent)
+
+
+@pytest.mark.parametrize(("longest", "found"), [(100.0, False), (101.0, True)])
+def test_a_lag_must_be_below_the_longest(longest, found):
+    time = np.arange(6000.0)
+    bursts = sum(np.exp(-(((time - place) / 8.0) ** 2)) for place in (2000, 2100))
+    assert (envelope_lag(np.cos(1.3 * time) * bursts, 1.0, longest) == 100.0) is found
+
+
+def test_the_plain_rule_is_the_default_and_its_share_stands_in_the_method(pulse_train):
+    train = pulse_train(100.0 / RATE, GEARBOX.pass_periods()["outer"])
+    said = [rule.estimate(train.signal, RATE, GEARBOX) for rule in (EnvelopeLagRule(), EnvelopeLagRule(2.0))]
+    assert [found.method for found in said] == ["envelope lag, 1 times", "envelope lag, 2 times"]
+    # The arc of the lag is what was measured, whatever the size is taken for.
+    assert [found.extent / found.lag_arc for found in said] == pytest.approx([1.0, 2.0])
+
+
+def test_the_rule_says_where_there_is_no_signal():
+    assert EnvelopeLagRule().estimate(np.zeros((5000, 2)), RATE, GEARBOX).outcome is SizeOutcome.NO_SIGNAL

@@ -34,3 +34,10 @@ def test_trees_come_back_from_their_arrays():
     assert np.array_equal(again.predict(rows), trees.predict(rows))
     with pytest.raises(KeyError, match="other"):
         Trees.from_arrays(trees.to_arrays("any"), "other")
+
+
+def test_rows_that_lack_a_column_are_refused_with_both_numbers():
+    rows, _ = rows_and_aim()
+    trees = to_trees(HistGradientBoostingRegressor(max_iter=3, random_state=0).fit(rows, rows[:, 4]))
+    with pytest.raises(ValueError, match="rows have 4 columns; the trees need 5"):
+        trees.predict(rows[:, :4])

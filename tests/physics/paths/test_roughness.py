@@ -160,3 +160,12 @@ def test_the_values_fit_a_spall(gearbox):
 def test_impossible_roughness_is_refused(gearbox, change, message):
     with pytest.raises(InvalidParameter, match=message):
         draw(gearbox, **change)
+
+
+def test_the_shortest_spall_has_sixteen_steps(gearbox):
+    assert draw(gearbox, extent=1e-3).size == 17  # 23 µm, a tenth of a contact width
+
+
+def test_no_height_is_a_negative_zero(gearbox):
+    values = np.concatenate([draw(gearbox, seed, extent=0.02) for seed in range(8)])
+    assert not np.signbit(values[values == 0.0]).any()  # which the text of a scene would show

@@ -1,6 +1,5 @@
 """The command on a tiny corpus: own estimators, progress, what is refused before anything is read."""
 
-import json
 import shutil
 import sys
 from dataclasses import replace
@@ -37,19 +36,12 @@ def test_a_copy_without_a_split_test_is_refused_before_anything_is_read(tiny_cor
     assert "another seed" in done.output
 
 
-def test_an_estimator_of_ones_own_is_fitted_and_scored(classify, tmp_path):
-    done, results = classify("--estimator", "own_estimators:Guesser", "--out", tmp_path / "report")
+def test_an_estimator_of_ones_own_is_fitted_and_scored(classify):
+    done, results = classify("--estimator", "own_estimators:Guesser")
     assert done.exit_code == 0
     scores = results["tests"][0]["models"]["Guesser"]
     assert set(scores["confusion"]["columns"]) == {"none", "outer", "inner", "rejected"}
-    assert set(results["importances"]["Guesser"]) == set(FEATURE_NAMES)
-    assert (tmp_path / "report" / "report.png").read_bytes().startswith(b"\x89PNG")
-    assert sorted(path.name for path in (tmp_path / "report").iterdir()) == [
-        "report.csv",
-        "report.json",
-        "report.png",
-    ]
-    assert json.loads((tmp_path / "report" / "report.json").read_text())["training_records"] == 14
+    assert results["training_records"] == 14
 
 
 @pytest.mark.parametrize(

@@ -1,9 +1,12 @@
 """docs/classify.md explains what reports of `classify` hold."""
 
+import json
 import re
 from pathlib import Path
 
 import pytest
+
+from labels.features.table import FEATURE_NAMES
 
 pytestmark = pytest.mark.usefixtures("short_records_are_judged")
 
@@ -18,6 +21,10 @@ def explained(head):
 def test_the_page_explains_every_column_and_key_of_the_reports(classify, tmp_path):
     done, report = classify("--estimator", "own_estimators:Guesser", "--out", tmp_path / "scores")
     assert done.exit_code == 0, done.output
+    assert {path.name for path in (tmp_path / "scores").iterdir()} == {"report.csv", "report.json", "report.png"}
+    assert (tmp_path / "scores" / "report.png").read_bytes().startswith(b"\x89PNG")
+    assert json.loads((tmp_path / "scores" / "report.json").read_text()) == report
+    assert set(report["importances"]["Guesser"]) == set(FEATURE_NAMES)
     (tested,) = report["tests"]
     keys = explained("key of `report.json`")
     assert set(keys) == {*report, "learning_curve", *tested}

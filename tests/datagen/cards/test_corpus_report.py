@@ -67,6 +67,12 @@ def report(tiny_corpus: Path, tmp_path_factory: pytest.TempPathFactory) -> Repor
     return write_report(tiny_corpus, tmp_path_factory.mktemp("report") / "card")
 
 
+@pytest.fixture(scope="session")
+def measured_report(measured: Path) -> Report:
+    """The report of the imported corpus, in its own folder."""
+    return write_report(measured)
+
+
 def test_the_facts_are_those_of_the_index(tiny_corpus: Path) -> None:
     facts, table = corpus_facts(tiny_corpus), Corpus(tiny_corpus).labels
     assert sum(kind.records for kind in facts.kinds) == len(table) == 14
@@ -162,10 +168,9 @@ def files_of(folder: Path) -> tuple[Path, set[Path]]:
 
 
 def test_metadata_point_to_the_files_of_the_corpus_from_wherever_they_lie(
-    report: Report, measured: Path, tiny_corpus: Path
+    report: Report, measured_report: Report, measured: Path, tiny_corpus: Path
 ) -> None:
-    inside = write_report(measured)
-    for written, corpus in ((inside, measured), (report, tiny_corpus)):
+    for written, corpus in ((measured_report, measured), (report, tiny_corpus)):
         index, shards = files_of(Path(written.folder))
         assert index == (corpus / "index.csv").resolve()
         assert shards == {path.resolve() for path in (corpus / "shards").glob("*.nc")} != set()
@@ -209,9 +214,8 @@ def test_labels_in_the_common_vocabulary_say_in_which_row_of_which_file_a_signal
     assert found == [row["signal_id"] for row in rows]
 
 
-def test_an_imported_corpus_has_a_card_with_its_terms_and_sources(measured: Path) -> None:
-    written = write_report(measured)
-    assert Path(written.folder) == measured / "report"
+def test_an_imported_corpus_has_a_card_with_its_terms_and_sources(measured_report: Report, measured: Path) -> None:
+    assert Path(measured_report.folder) == measured / "report"
     text = (measured / "report" / CARD).read_text()
     kinds = ("| healthy | none | 1 |", "| unknown | outer | 1 |")
     for sentence in (

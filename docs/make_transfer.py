@@ -15,9 +15,8 @@ import numpy as np
 from make_draws import ODD, require_different_names
 from marked_tables import write_marked
 from numpy.typing import NDArray
-from scipy.stats import binomtest
 
-from labels.classifier.scores import FEWEST_A_SIDE, balanced_accuracy, paired_difference
+from labels.classifier.scores import FEWEST_A_SIDE, balanced_accuracy, exact_interval, paired_difference
 from physics.bearing import RACES
 
 PAGE = Path(__file__).with_name("transfer.md")
@@ -38,7 +37,7 @@ def counted(some: int, all_: int) -> str:
     """A count with the 95 % interval of its share [Clopper & Pearson 1934]; a dash if nothing was counted."""
     if all_ == 0:
         return "–"
-    share = binomtest(some, all_).proportion_ci()
+    share = exact_interval(some, all_)
     return f"{some} of {all_} [{share.low:.3f}, {share.high:.3f}]"
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from datagen.benchmark.corpus_rows import read_records
 from datagen.benchmark.options import Learning
 from datagen.benchmark.plan import reading_of, training_reading_of
-from datagen.benchmark.record_rows import RecordRows, Row
+from datagen.benchmark.record_rows import RecordFacts, RecordRows, Row
 from datagen.benchmark.request import require_bandwidth
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
@@ -46,7 +46,7 @@ LABELS_SHOWN = (
     "duration_s",
     "snr_db",
 )
-OF_RECORD = ("reason", "levelled", "despiked", "shocks_cut", "in_mains", "in_shaft", "bands")
+OF_RECORD = ("reason", *RecordFacts().shown())
 OF_ROW = ("axis", "window", "noisy", *OF_RECORD, "found_speed_rpm")
 COLUMNS = ("corpus", *LABELS_SHOWN, "class", *OF_ROW, *FEATURE_NAMES)
 
@@ -123,8 +123,7 @@ def _axes_by_shard(folder: Path, labels: pandas.DataFrame) -> dict[str, list[str
 def _record_rows(found: RecordRows, axes: Sequence[str], as_learned: bool) -> Iterator[tuple[Any, ...]]:
     """What OF_ROW and the features are in each row of one record."""
     facts = found.facts
-    hidden = (" ".join(facts.in_mains), " ".join(facts.in_shaft))
-    of_record = (facts.reason, facts.jumps, facts.glitches, facts.shocks, *hidden, facts.bands)
+    of_record = (facts.reason, *facts.shown().values())
     if not found.rows or (facts.reason and not as_learned):
         nothing = [math.nan] * (1 + len(FEATURE_NAMES))
         yield ("", 0, False, *of_record, *nothing)

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
+from datagen.benchmark.record_rows import RecordFacts
 from datagen.benchmark.verdicts import Tested, Verdicts
 from datagen.files.text_tables import csv_text
 from labels.classifier.classes import condition_probability, location_probability
@@ -17,12 +18,7 @@ FACTS = (
     "bearing_id",
     "truth",
     "rejected",
-    "levelled",
-    "despiked",
-    "shocks_cut",
-    "in_mains",
-    "in_shaft",
-    "bands",
+    *RecordFacts().shown(),
     "found_speed_rpm",
 )
 SAID = ("location", "score", "alarm")
@@ -89,12 +85,7 @@ def record_predictions(tested: Tested) -> list[Prediction]:
             bearing_id=str(row["bearing_id"]),
             truth=str(row["location"]),
             rejected=facts.reason,
-            levelled=facts.jumps,
-            despiked=facts.glitches,
-            shocks_cut=facts.shocks,
-            in_mains=" ".join(facts.in_mains),
-            in_shaft=" ".join(facts.in_shaft),
-            bands=facts.bands,
+            **facts.shown(),
             found_speed_rpm=None if facts.found_rpm is None else float(f"{facts.found_rpm:.6g}"),
             models={said.name: _answer(said, place) for said in tested.verdicts},
         )

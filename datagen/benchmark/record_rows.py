@@ -76,6 +76,17 @@ class RecordFacts:
     found_rpm: float | None = None
     far_from_stated: bool = False
 
+    def shown(self) -> dict[str, Any]:
+        """What tables and reports show of it, by the names of their columns."""
+        return {
+            "levelled": self.jumps,
+            "despiked": self.glitches,
+            "shocks_cut": self.shocks,
+            "in_mains": " ".join(self.in_mains),
+            "in_shaft": " ".join(self.in_shaft),
+            "bands": self.bands,
+        }
+
 
 @dataclass(frozen=True)
 class RecordRows:

@@ -4,6 +4,6 @@
 - scores: `features`, `classify`, `size`, `chart`, `paper`
 - reference: `catalog`, `schema`
 - what they share: `program` (how a command ends and complains), `usage` (command lines that cannot be read),
-  `grouped` (options that belong together), `termination` (SIGTERM), `tables` (results on a terminal),
+  `grouped` (options that belong together), `termination` (SIGTERM), `tables` and `size_tables` (results on a terminal),
   `progress_display` (how far a command has got)
 """

@@ -83,7 +83,7 @@ def size(
 
 
 def _print_result(scores: SizeScores) -> None:
-    from datagen.sizing.tables import estimates_table, known_size_sentence, stated_sentence, summary_table
+    from datagen.commands.size_tables import estimates_table, known_size_sentence, stated_sentence, summary_table
 
     answered, asked = sum(record.found for record in scores.records), sum(record.asked for record in scores.records)
     silent = (

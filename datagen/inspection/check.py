@@ -11,7 +11,7 @@ from datagen.corpus_files.format import FORMAT, format_hash
 from datagen.corpus_files.manifest import read_manifest, shard_entry
 from datagen.counts import counted
 from datagen.errors import BadInput
-from datagen.files.atomic import is_held
+from datagen.files.lock import is_held
 from datagen.files.places import FAILURES, from_home
 from datagen.inspection.corpus_parts import CorpusParts, read_parts
 from datagen.inspection.findings import Findings, of_file

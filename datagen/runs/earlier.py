@@ -10,7 +10,8 @@ from datagen.corpus_files.format import Identity
 from datagen.corpus_files.manifest import DamagedManifest, Span, add_spans, manifest_path, read_manifest
 from datagen.corpus_files.shard import Sidecar, finished_shards, shards_folder
 from datagen.errors import BadInput
-from datagen.files.atomic import LOCK, is_temporary
+from datagen.files.atomic import is_temporary
+from datagen.files.lock import LOCK
 from datagen.files.places import OUT, SHARDS, require_folder
 
 BEGUN_WITH = {

@@ -11,7 +11,7 @@ from datagen.corpus_files.format import Identity, format_hash
 from datagen.corpus_files.manifest import Span, add_spans
 from datagen.corpus_files.shard import shards_folder
 from datagen.errors import BadInput
-from datagen.files.atomic import locked
+from datagen.files.lock import locked
 from datagen.files.netcdf import check_compression
 from datagen.files.places import OUT, from_home
 from datagen.progress import SILENT, Listener

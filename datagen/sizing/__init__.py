@@ -7,7 +7,7 @@
 - `aggregation`: all of them together, as a `size_summary`, made of `figures` and `error_tables` from `record_errors`,
   with `bearing_intervals`
 - `stated_sizes`: recordings by what their publishers state; `known_sizes`: with a measured spall of the machine
-- `report_files`, `tables`, `flat_rows`: what is written and printed
+- `report_files`, `flat_rows`: what is written
 - `fit`: the calibration, from `training_rows` by way of `trial_columns`, in `fit_stages`, each a `committee`;
   `cross_fit`: what it says of bearings not fitted to; `fit_limits`: doubt and intervals
 """

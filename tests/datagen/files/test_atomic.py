@@ -1,7 +1,6 @@
 from __future__ import annotations
 
 import errno
-import fcntl
 import os
 import signal
 import stat
@@ -16,8 +15,6 @@ import pytest
 
 from datagen.errors import BadInput
 from datagen.files.atomic import (
-    LOCK,
-    locked,
     opened_atomically,
     sweep_temporaries,
     write_atomically,
@@ -126,33 +123,6 @@ def test_sweeping_deletes_temporaries_and_nothing_else(tmp_path: Path) -> None:
         (tmp_path / name).write_bytes(b"x")
     sweep_temporaries(tmp_path)
     assert sorted(path.name for path in tmp_path.iterdir()) == [".lock", "notes.part", "shard_000001.nc"]
-
-
-def test_a_folder_in_use_is_refused_until_its_holder_dies(tmp_path: Path) -> None:
-    script = (
-        "import time; from pathlib import Path; from datagen.files.atomic import locked\n"
-        f"with locked(Path({str(tmp_path)!r})):\n"
-        "    print('held', flush=True); time.sleep(60)\n"
-    )
-    holder = subprocess.Popen([sys.executable, "-c", script], cwd=ROOT, stdout=subprocess.PIPE, text=True)
-    assert holder.stdout is not None
-    assert holder.stdout.readline() == "held\n"
-    with pytest.raises(BadInput, match="another run"), locked(tmp_path):
-        pass
-    holder.kill()
-    holder.wait()
-    holder.stdout.close()
-    with locked(tmp_path):
-        pass
-
-
-def test_a_run_that_begins_while_another_looks_whether_the_folder_is_held_is_not_refused(tmp_path: Path) -> None:
-    look = os.open(tmp_path / LOCK, os.O_RDONLY | os.O_CREAT, 0o644)
-    fcntl.flock(look, fcntl.LOCK_SH)
-    end_of_look = threading.Timer(0.03, os.close, (look,))
-    end_of_look.start()
-    with locked(tmp_path):
-        end_of_look.join()
 
 
 def test_a_pipe_that_the_user_names_is_written_to_and_not_replaced(tmp_path: Path) -> None:

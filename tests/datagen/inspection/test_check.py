@@ -15,8 +15,9 @@ from datagen.corpus_files.format import content_hash
 from datagen.corpus_files.manifest import read_manifest
 from datagen.corpus_files.shard import label_columns, shard_path, sidecar_path
 from datagen.errors import BadInput
-from datagen.files.atomic import locked, write_atomically
+from datagen.files.atomic import write_atomically
 from datagen.files.digest import file_hash
+from datagen.files.lock import locked
 from datagen.files.netcdf import netcdf_bytes
 from datagen.inspection.check import check_corpus
 from datagen.recipes.recipe import Recipe, load_recipe, parse_recipe

@@ -9,11 +9,11 @@ from dataclasses import astuple, replace
 import numpy as np
 import pytest
 
+from datagen.commands.size_tables import stated_sentence, summary_table
 from datagen.sizing.aggregation import summarise
 from datagen.sizing.bearing_intervals import mean_with_interval
 from datagen.sizing.scored_record import ScoredRecord
 from datagen.sizing.size_summary import Seconds, StatedSizes
-from datagen.sizing.tables import stated_sentence, summary_table
 from labels.event_scores import EventScores
 from labels.interval import Interval
 

@@ -15,6 +15,7 @@ import pandas
 import pytest
 from command_line import run
 
+from datagen.commands.size_tables import known_size_sentence
 from datagen.corpus_files.index import read_index
 from datagen.errors import BadInput
 from datagen.judging.stated_speed import SPEED_ERROR
@@ -32,7 +33,6 @@ from datagen.sizing.size_request import SizeRequest
 from datagen.sizing.size_summary import SizeSummary
 from datagen.sizing.sized_records import sized_records, without_load
 from datagen.sizing.stated_situation import wrong_speed
-from datagen.sizing.tables import known_size_sentence
 from labels.schema import SPLITS
 from labels.spall_size.estimation.calibration import Calibration
 from labels.spall_size.estimation.estimator import SizeEstimator

@@ -8,12 +8,12 @@ from collections.abc import Callable
 import pytest
 from rich.table import Table
 
+from datagen.commands.size_tables import estimates_table, known_size_sentence, stated_sentence, summary_table
 from datagen.sizing.aggregation import summarise
 from datagen.sizing.flat_rows import flat_row
 from datagen.sizing.known_sizes import KnownSize
 from datagen.sizing.scored_record import ScoredRecord
 from datagen.sizing.size_summary import StatedSizes
-from datagen.sizing.tables import estimates_table, known_size_sentence, stated_sentence, summary_table
 from labels.event_scores import EventScores
 from labels.interval import Interval
 

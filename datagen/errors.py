@@ -33,6 +33,11 @@ class BadInput(Exception):
         return " ".join(line.split())
 
 
+def unreadable(path: object, problem: OSError, field: str = "") -> BadInput:
+    """The refusal of a file that the system does not let be read, in its words."""
+    return BadInput(f"cannot be read: {problem.strerror or problem}", file=str(path), field=field)
+
+
 def at_line(file: object, line: int | None) -> str:
     """A file for a message, with the `line` in it where that is known (neither None nor 0)."""
     return f"{file}, line {line}" if line else str(file)

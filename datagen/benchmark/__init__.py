@@ -6,7 +6,7 @@
 - `rows`: the table that is learned from; `reading_policy`, `record_rows`, `corpus_rows`: how records become rows of
   features; `feature_table`: these rows for people; `windows`: raw pieces for users' own estimators
 - `training_source`: what can be learned from: a corpus, `kept_rows`, which come with the program, or impulse trains
-- `training`, `trained` (the result, as a file), `learning` (the learning curve), `importance` (of features)
+- `training`, `trained` (the result, as a file), `learning_curve`, `importance` (of features)
 - `impulse_signal`, `impulse_training`: the rival training set, made without contact physics
 - `machines`: keeps records of machines that were learned from out of the scores; `chosen`: the records that are judged
 - `answers`: checks what an estimator says

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from datagen.benchmark.importance import importances
-from datagen.benchmark.learning import learning_curve
+from datagen.benchmark.learning_curve import learning_curve
 from datagen.benchmark.plan import Benchmark
 from datagen.benchmark.trained import Trained
 from datagen.benchmark.training import train, train_rule

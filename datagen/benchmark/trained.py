@@ -12,7 +12,7 @@ from typing import Any
 from datagen.benchmark.machines import LearnedMachines
 from datagen.benchmark.options import SAVE, TRAIN, Learning
 from datagen.benchmark.training import Model
-from datagen.errors import BadInput
+from datagen.errors import BadInput, unreadable
 from datagen.files.atomic import write_file
 from datagen.versions import measured_on, program_hash
 from labels.classifier.rule import Rule
@@ -64,7 +64,7 @@ def load_trained(path: Path) -> Trained:
             _require_same(path, _head(file.readline(LONGEST_HEAD)))
             kept = file.read()
     except OSError as problem:
-        raise BadInput(f"cannot be read: {problem.strerror}", file=str(path), field=TRAIN) from None
+        raise unreadable(path, problem, TRAIN) from None
     try:
         trained = pickle.loads(zlib.decompress(kept))
     except Exception:  # whatever a damaged pickle leads to

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from datagen.corpus_files.manifest import no_corpus
 from datagen.corpus_files.shard import LABEL_COLUMNS, Sidecar, shard_path
-from datagen.errors import BadInput, at_line
+from datagen.errors import BadInput, at_line, unreadable
 from datagen.files.atomic import opened_atomically
 from datagen.files.places import INDEX
 from labels.schema import LABELS
@@ -114,7 +114,7 @@ def read_index(folder: Path) -> pandas.DataFrame:
     except (FileNotFoundError, NotADirectoryError):
         raise no_corpus(folder, path.name) from None
     except OSError as problem:
-        raise BadInput(f"cannot be read: {problem.strerror}", file=str(path)) from None
+        raise unreadable(path, problem) from None
     except (UnicodeDecodeError, csv.Error):
         raise _no_index("not a table of text", path) from None
     texts = _columns(rows, path)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from datagen.errors import BadInput
+from datagen.errors import BadInput, unreadable
 from datagen.formats.arrays import Arrays
 from datagen.formats.csv_file import read_csv
 from datagen.formats.csv_layout import CsvLayout
@@ -70,4 +70,4 @@ def read_arrays(path: Path, stated: str | None, layout: CsvLayout) -> Arrays:
     except FileNotFoundError:
         raise BadInput("no such file", file=str(path)) from None
     except OSError as problem:
-        raise BadInput(f"cannot be read: {problem.strerror or problem}", file=str(path)) from None
+        raise unreadable(path, problem) from None

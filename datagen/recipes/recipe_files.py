@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path, PurePosixPath
 
-from datagen.errors import BadInput
+from datagen.errors import BadInput, unreadable
 from datagen.files.places import dataset_folders, refuse_other_than_file
 from physics.spelling import suggestion
 
@@ -35,7 +35,7 @@ def find_recipe(path_or_name: str | Path) -> Path:
             raise BadInput(f"this folder has no {FILE_NAME}", file=str(path))
         refuse_other_than_file(path, "a recipe's file or folder, or the name of a dataset")
     except OSError as problem:
-        raise BadInput(f"cannot be read: {problem.strerror}", file=str(path)) from None
+        raise unreadable(path, problem) from None
     known = ", ".join(shipped) or "(none)"
     told = f"no such file or folder, and no dataset of that name ({known})"
     raise BadInput(told + suggestion(name, shipped), file=str(path))

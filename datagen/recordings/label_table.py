@@ -10,7 +10,7 @@ from typing import Any, get_args
 
 from pydantic import ValidationError
 
-from datagen.errors import BadInput
+from datagen.errors import BadInput, unreadable
 from datagen.files.csv_rows import Row, read_csv_rows
 from datagen.files.number_texts import may_be_parted
 from datagen.recordings.settings import RecordingSettings
@@ -46,7 +46,7 @@ def read_label_table(path: Path, note_columns: tuple[str, ...]) -> list[TableRow
         delimiter = _delimiter(path)
         rows = [(line, cells) for line, cells in read_csv_rows(path, delimiter) if any(map(str.strip, cells))]
     except OSError as problem:
-        raise BadInput(f"cannot be read: {problem.strerror}", file=str(path)) from None
+        raise unreadable(path, problem) from None
     if len(rows) < 2:
         raise BadInput("the table has no rows", file=str(path))
     first, heads = rows[0]

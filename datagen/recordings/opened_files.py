@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from functools import lru_cache
 from pathlib import Path
 
-from datagen.errors import BadInput
+from datagen.errors import unreadable
 from datagen.files.digest import file_hash
 from datagen.formats.arrays import Arrays
 from datagen.formats.csv_layout import CsvLayout
@@ -38,7 +38,7 @@ def source_hash(path: Path) -> str:
     try:
         return file_hash(path)
     except OSError as problem:
-        raise BadInput(f"cannot be read: {problem.strerror}", file=str(path)) from None
+        raise unreadable(path, problem) from None
 
 
 REMEMBERED = (_opened, source_hash, first_state)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from datagen.errors import BadInput
+from datagen.errors import BadInput, unreadable
 from datagen.files.places import dataset_folders, refuse_other_than_file
 from physics.spelling import suggestion
 
@@ -22,7 +22,7 @@ def find_spec(path_or_name: str | Path) -> Path:
         if path.is_file():
             return path
     except OSError as problem:
-        raise BadInput(f"cannot be read: {problem.strerror}", file=str(path)) from None
+        raise unreadable(path, problem) from None
     shipped = shipped_specs()
     if path.name in shipped and path.parent == Path():
         return shipped[path.name]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import lru_cache
 from pathlib import Path
 
-from datagen.errors import BadInput
+from datagen.errors import BadInput, unreadable
 
 State = tuple[int, int, int]
 
@@ -32,5 +32,5 @@ def _state(path: Path) -> State:
     except FileNotFoundError:
         raise BadInput("no such file", file=str(path)) from None
     except OSError as problem:
-        raise BadInput(f"cannot be read: {problem.strerror}", file=str(path)) from None
+        raise unreadable(path, problem) from None
     return found.st_size, found.st_mtime_ns, found.st_ino

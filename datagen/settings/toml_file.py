@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from datagen.errors import BadInput
+from datagen.errors import BadInput, unreadable
 
 # What a float still holds; settings have ranges of their own, far below.
 LARGEST_WHOLE = 10**300
@@ -22,7 +22,7 @@ def read_toml(path: Path) -> tuple[dict[str, Any], str]:
         largest = max(map(abs, _whole_numbers(content)), default=0)
         digits = len(str(largest))
     except OSError as error:
-        raise BadInput(f"cannot be read: {error.strerror}", file=str(path)) from None
+        raise unreadable(path, error) from None
     except UnicodeDecodeError:
         raise BadInput("not a UTF-8 text file", file=str(path)) from None
     except tomllib.TOMLDecodeError as error:

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from datagen.benchmark.learning import learning_curve
+from datagen.benchmark.learning_curve import learning_curve
 from datagen.benchmark.options import Learning
 from datagen.benchmark.rows import Rows, joined
 from datagen.benchmark.training import ROWS_TO_TRY, TrainingSet
@@ -45,7 +45,7 @@ def test_axes_of_held_out_records_are_told_apart(monkeypatch):
         heard.append(rows.axis)
         return vote(model, rows, records)
 
-    monkeypatch.setattr("datagen.benchmark.learning.vote", said)
+    monkeypatch.setattr("datagen.benchmark.learning_curve.vote", said)
     learning_curve(made_up(20), Learning("logistic"))
     assert heard
     assert all(axis.tolist() == [0, 1] * (axis.size // 2) for axis in heard)

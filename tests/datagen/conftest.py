@@ -91,12 +91,19 @@ def tiny_corpus(tiny: Recipe, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-@pytest.fixture(scope="session")
-def load_script() -> Callable[[str], ModuleType]:
-    """A function that loads a script of the folder `docs` by its name, without running it."""
+@pytest.fixture
+def short_records_are_judged(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The records of the tiny corpus are quick to make, and shorter than any that is judged otherwise."""
+    monkeypatch.setattr("datagen.benchmark.fitness.SHORTEST", 0.0)
+    monkeypatch.setattr("datagen.benchmark.fitness.FEWEST_TURNS", 0.0)
 
-    def load(name: str) -> ModuleType:
-        spec = spec_from_file_location(name, Path(__file__).parents[2] / "docs" / f"{name}.py")
+
+@pytest.fixture(scope="session")
+def load_script() -> Callable[..., ModuleType]:
+    """A function that loads a script of the folder `docs`, or another `folder`, by its name, without running it."""
+
+    def load(name: str, folder: str = "docs") -> ModuleType:
+        spec = spec_from_file_location(name, Path(__file__).parents[2] / folder / f"{name}.py")
         assert spec is not None
         assert spec.loader is not None
         module = module_from_spec(spec)

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import json
-from importlib.util import module_from_spec, spec_from_file_location
+from collections.abc import Callable
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import pytest
@@ -15,17 +16,14 @@ DATASETS = Path(__file__).resolve().parents[2] / "datasets"
 EVERY = sorted(path.parent.name for path in DATASETS.glob("*/recipe.toml"))
 LONG = ("corpus", "size_imperfect", "size_training", "transfer")  # seven seconds and more each
 ROUNDING = 1e-6
+Drawn = Callable[[Recipe], dict[str, Any]]
 
 
-def drawn(recipe: Recipe) -> dict[str, Any]:
+@pytest.fixture
+def drawn(load_script: Callable[..., ModuleType]) -> Drawn:
     """What the script says of a recipe."""
-    spec = spec_from_file_location("make_expected", DATASETS / "make_expected.py")
-    assert spec is not None
-    assert spec.loader is not None
-    script = module_from_spec(spec)
-    spec.loader.exec_module(script)
-    found: dict[str, Any] = script.expected(recipe)
-    return found
+    expected: Drawn = load_script("make_expected", "datasets").expected
+    return expected
 
 
 def stored(name: str) -> dict[str, Any]:
@@ -43,7 +41,7 @@ def test_every_dataset_has_statistics_of_the_recipe_as_it_is(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", [pytest.param(n, marks=pytest.mark.slow if n in LONG else ()) for n in EVERY])
-def test_the_statistics_are_those_of_the_scenarios_that_are_drawn(name: str) -> None:
+def test_the_statistics_are_those_of_the_scenarios_that_are_drawn(name: str, drawn: Drawn) -> None:
     said, found = stored(name), drawn(load_recipe(name))
     assert said.keys() == found.keys()
     for key, value in found.items():
@@ -51,7 +49,7 @@ def test_the_statistics_are_those_of_the_scenarios_that_are_drawn(name: str) -> 
         assert said[key] == (pytest.approx(value, rel=ROUNDING) if numbers else value), key
 
 
-def test_fixed_settings_have_the_counts_and_quantiles_that_they_say() -> None:
+def test_fixed_settings_have_the_counts_and_quantiles_that_they_say(drawn: Drawn) -> None:
     part = {
         "machine": {"rig": "gearbox"},
         "operation": {"speed_rpm": 900, "load_n": 200},

@@ -19,12 +19,10 @@ LINES = re.findall(r"^```bash\n(.*?)\n```$", PAGE, re.MULTILINE | re.DOTALL)
 
 
 @pytest.fixture
-def beside_a_corpus(tiny_corpus, tmp_path, monkeypatch):
+def beside_a_corpus(tiny_corpus, tmp_path, monkeypatch, short_records_are_judged):
     """A user's folder with a corpus, of records shorter than are judged otherwise."""
     (tmp_path / "quickstart-corpus").symlink_to(tiny_corpus, target_is_directory=True)
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("datagen.benchmark.fitness.SHORTEST", 0.0)
-    monkeypatch.setattr("datagen.benchmark.fitness.FEWEST_TURNS", 0.0)
 
 
 def test_the_table_is_what_the_script_writes(load_script, tmp_path):

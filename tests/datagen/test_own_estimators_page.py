@@ -22,15 +22,13 @@ LINES = re.findall(r"^```bash\n(.*?)\n```$", PAGE, re.MULTILINE | re.DOTALL)
 
 
 @pytest.fixture
-def where_the_examples_are(tmp_path, monkeypatch):
+def where_the_examples_are(tmp_path, monkeypatch, short_records_are_judged):
     """A user's folder with the modules of the page; records shorter than are judged otherwise count."""
     for name, text in BLOCKS.items():
         (tmp_path / f"{name}.py").write_text(text)
         monkeypatch.delitem(sys.modules, name, raising=False)
     monkeypatch.chdir(tmp_path)
     monkeypatch.syspath_prepend(str(tmp_path))
-    monkeypatch.setattr("datagen.benchmark.fitness.SHORTEST", 0.0)
-    monkeypatch.setattr("datagen.benchmark.fitness.FEWEST_TURNS", 0.0)
 
 
 @pytest.fixture

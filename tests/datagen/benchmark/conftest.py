@@ -14,13 +14,6 @@ from datagen.runs.generate import generate
 from datagen.runs.workers import Engine
 
 
-@pytest.fixture
-def short_records_are_judged(monkeypatch):
-    """The records of the tiny corpus are quick to make, and shorter than any that is judged otherwise."""
-    monkeypatch.setattr("datagen.benchmark.fitness.SHORTEST", 0.0)
-    monkeypatch.setattr("datagen.benchmark.fitness.FEWEST_TURNS", 0.0)
-
-
 @pytest.fixture(scope="session")
 def other_corpus(tiny_recipe, tmp_path_factory):
     """The whole corpus of the tiny recipe with another seed, that is of other machines."""

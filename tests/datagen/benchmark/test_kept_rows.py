@@ -41,10 +41,8 @@ def beginning(tmp_path_factory):
 
 
 @pytest.fixture
-def kept_tiny(tiny_corpus, tmp_path, monkeypatch):
+def kept_tiny(tiny_corpus, tmp_path, short_records_are_judged):
     """What is learned from the tiny corpus, and the same as kept rows."""
-    monkeypatch.setattr("datagen.benchmark.fitness.SHORTEST", 0.0)
-    monkeypatch.setattr("datagen.benchmark.fitness.FEWEST_TURNS", 0.0)
     source = CorpusRecords(Benchmark(tiny_corpus, (tiny_corpus,)))
     keep(tiny_corpus, tmp_path / "rows.npz")
     return source, KeptRows(file=tmp_path / "rows.npz")

@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from measures import hanging
+from short_spalls import EXTENT, gap, inside, tukey
 
 from physics.imperfections import Imperfections, Waviness
 from physics.paths.depth_path import hermite_cubics
@@ -16,26 +17,11 @@ from physics.paths.spall_surface import window
 from physics.spall import Spall
 
 RACES = pytest.mark.parametrize("race", ["outer", "inner"])
-EXTENT = math.radians(2.0)
-BOTTOM = math.radians(270.0)
-DEEP = 1e-3
 PICOMETRE = 1e-12  # cubic cells against the curve they follow: their fourth derivative times a 48th of a taper, ^4/384
-
-
-def gap(race="outer", extent=EXTENT, depth=DEEP, **other):
-    return Spall(race, 1, BOTTOM, extent, depth, profile="ball_path", **other)
-
-
-def tukey(race="outer", **changes):
-    return dataclasses.replace(Spall(race, 1, BOTTOM, EXTENT, 12e-6, 0.010, 0.004), **changes)
 
 
 def rounded_ramp(distance, taper):
     return np.where(distance < taper, 0.5 * (1 - np.cos(np.pi * distance / taper)), 1.0)
-
-
-def inside(spall, count=1001):
-    return np.linspace(-spall.extent / 2, spall.extent / 2, count)
 
 
 @pytest.mark.parametrize(

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from measures import hanging
 from scipy.interpolate import CubicSpline
+from short_spalls import BOTTOM, EXTENT, gap, inside, tukey
 
 from physics.paths.profile import build_path, is_rough, race_depth
 from physics.paths.roughness import draw_roughness
@@ -14,21 +15,7 @@ from physics.paths.spall_surface import roughness_curve, window
 from physics.spall import Spall
 
 RACES = pytest.mark.parametrize("race", ["outer", "inner"])
-EXTENT = math.radians(2.0)
-BOTTOM = math.radians(270.0)
 BETWEEN_NODES = 1e-9  # m: what cells of 4 µm leave between the corners, which are edges of cells
-
-
-def gap(race="outer", extent=EXTENT, depth=1e-3, **other):
-    return Spall(race, 1, BOTTOM, extent, depth, profile="ball_path", **other)
-
-
-def tukey(race="outer", **changes):
-    return dataclasses.replace(Spall(race, 1, BOTTOM, EXTENT, 12e-6, 0.010, 0.004), **changes)
-
-
-def inside(spall, count=1001):
-    return np.linspace(-spall.extent / 2, spall.extent / 2, count)
 
 
 def table(race, angle, depth, extent=EXTENT):

@@ -5,17 +5,13 @@ import math
 
 import numpy as np
 import pytest
+from at_rest import EXTENDED, LINE, START
 
 from physics.imperfections import Imperfections, Waviness
-from physics.spall import Spall
 from physics.statics.load_distribution import equilibrium, require_equilibrium
 from physics.statics.stiffness import symmetric_matrices
 from physics.words import STIFFNESS_COMPONENTS
 
-BOTTOM = math.radians(270.0)
-START = np.zeros(1)
-LINE = Spall("outer", 1, BOTTOM, math.radians(2.0), 12e-6, math.radians(0.3), math.radians(0.3))
-EXTENDED = Spall("outer", 1, BOTTOM, math.radians(40.0), 4e-6, math.radians(1.0), math.radians(1.0))
 XX, YY, XY = range(3)
 FIRST_TOUCH = 100.0  # N/m: 1.5 K √δ of a ball at first touch, where δ is known to 1e-16 m
 

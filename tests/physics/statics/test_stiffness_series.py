@@ -5,19 +5,16 @@ import math
 
 import numpy as np
 import pytest
+from at_rest import BOTTOM, EXTENDED, LINE
 
 from physics.imperfections import Imperfections, Waviness
-from physics.spall import Spall
 from physics.statics.load_distribution import require_equilibrium
 from physics.statics.stiffness_series import coarsest_stride, stiffness_series
 
 RATE = 65536.0
 SAMPLES = 6001  # no multiple of any stride
-BOTTOM = math.radians(270.0)
 ALLOWED = 1e-5  # RMS over kyy: a tenth of what the stored trace may miss
 WORST = 2e-3  # over kyy, one instant beside a corner of the form √t
-LINE = Spall("outer", 1, BOTTOM, math.radians(2.0), 12e-6, math.radians(0.3), math.radians(0.3))
-EXTENDED = Spall("outer", 1, BOTTOM, math.radians(40.0), 4e-6, math.radians(1.0), math.radians(1.0))
 BUMPS = (0.0, *np.random.default_rng(3).normal(0.0, 3e-7, 60).tolist(), 0.0)
 ACROSS = np.linspace(-0.5, 0.5, 201)
 DIP = dataclasses.replace(

@@ -15,7 +15,7 @@ from physics.outcome import Outcome, SimulationFailed
 from physics.request import SMALLEST_ACCURACY, Accurate, FixedSteps, HalvedSteps, LeadIn, Reference, Simpler, Solution
 from physics.response.adaptive import respond_accurately
 from physics.response.asked import Asked
-from physics.response.fixed_steps import respond_by_fixed_steps
+from physics.response.fixed_steps import Stepping
 from physics.response.lead_in import from_start, respond_behind, started_earlier, starting_at
 from physics.response.lowered import respond_lowered
 from physics.response.modal_case import mean_flow
@@ -145,15 +145,16 @@ def _respond_by_steps(scene: Scene, rate: float, solution: FixedSteps | HalvedSt
     samples = scene.samples(rate)
     rest, factor = resting(scene), oversampling(scene, rate, keep.fastest_path)
     longer, marched = _looking_ahead(scene, rate, factor)
-    accuracy = solution.accuracy if isinstance(solution, HalvedSteps) else math.inf
-    asked = Asked(longer, rest, rate * factor, marched, accuracy)
     if isinstance(solution, Reference):
         start = starting_state(motion_model(scene), rest.displacement[0])
-        trace = respond_by_reference(longer, start, asked.rate, marched, keep_state=keep.state)
-    elif isinstance(solution, HalvedSteps):
-        trace = respond_by_fixed_steps(asked, solution.method, None, True, keep)
+        trace = respond_by_reference(longer, start, rate * factor, marched, keep_state=keep.state)
     else:
-        trace = respond_by_fixed_steps(asked, solution.method, solution.substeps, solution.estimate_error, keep)
+        stepping = Stepping(longer, rest, rate * factor, marched, solution.method, keep)
+        if isinstance(solution, HalvedSteps):
+            trace = stepping.halved_until(solution.accuracy)
+        else:
+            steps = solution.substeps or stepping.fewest
+            trace = stepping.judged(steps) if solution.estimate_error else stepping.once(steps)
     return _lowered(trace, rate, factor, samples)
 
 

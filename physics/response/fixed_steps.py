@@ -10,11 +10,11 @@ from physics.integrators.output import Grid
 from physics.integrators.propagator import fast_periods
 from physics.motion import motion_model, starting_state
 from physics.outcome import Outcome, SimulationFailed
-from physics.response.asked import Asked
 from physics.response.single_march import respond
 from physics.response.stability import require_stable, stable_substeps
 from physics.rms import relative_error
 from physics.scene import Scene
+from physics.statics.load_distribution import Equilibrium
 from physics.trace import Kept, Trace
 
 STEPS_PER_FAST_PERIOD = 6.2
@@ -31,43 +31,64 @@ ORDER = 2.0
 ROUNDING = 1e-9  # of a floor that two tapers leave nothing of
 
 
-def respond_by_fixed_steps(asked: Asked, method: str, substeps: int | None, judged: bool, keep: Kept) -> Trace:
-    """What is asked for by `substeps` steps a sample of `method`, whatever its `least_error`.
+class Stepping:
+    """Responses at k / `rate` (Hz) by one method of fixed steps, so many `samples` from the first position at `rest`.
 
-    None stands for the fewest that are stable in all positions and resolve the fastest mode. If the response is to be
-    `judged`, they are doubled until it keeps the accuracy, which may be infinite, by what one of half the step makes of
-    it, or of an even shorter one where `steps_over_spalls` asks for that, or one by another method where these are too
-    many. If not, there is no second response, and no estimate of the error. Raises SimulationFailed for steps that are
-    not stable, and where MOST_SUBSTEPS do not keep the accuracy.
+    `fewest` steps a sample are stable in all positions and resolve the fastest mode.
     """
-    scene, rate, accuracy = asked.scene, asked.rate, asked.accuracy
-    start = starting_state(motion_model(scene), asked.rest.displacement[0])
-    least = stable_substeps(scene, METHODS[method], asked.rest, rate)
-    steps = substeps or max(default_substeps(scene, rate), least)
-    require_stable(METHODS[method], rate, steps, least)
 
-    def response(steps: int, by: str = method) -> Trace:
-        return respond(scene, start, Grid(asked.samples, steps, 1.0 / (rate * steps)), by, keep)
+    def __init__(self, scene: Scene, rest: Equilibrium, rate: float, samples: int, method: str, keep: Kept) -> None:
+        self._scene, self._rate, self._samples, self._method, self._keep = scene, rate, samples, method, keep
+        self._start = starting_state(motion_model(scene), rest.displacement[0])
+        self._least = stable_substeps(scene, METHODS[method], rest, rate)
+        self.fewest = max(default_substeps(scene, rate), self._least)
+        needed = 1 if METHODS[method].controls_step else steps_over_spalls(scene, rate)
+        # By what responses are judged: a method, and how many steps a sample it takes at least.
+        self._judge = method if needed <= MOST_HELD_AGAINST else SURE_OVER_EDGES
+        self._finest = min(needed, MOST_HELD_AGAINST)
 
-    if not judged:
-        return response(steps)
-    most = max(MOST_SUBSTEPS, steps)
-    needed = 1 if METHODS[method].controls_step else steps_over_spalls(scene, rate)
-    finest, judge = min(needed, MOST_HELD_AGAINST), method if needed <= MOST_HELD_AGAINST else SURE_OVER_EDGES
-    coarse, fine = response(steps), response(max(2 * steps, finest), judge)
-    error = _estimated_error(coarse, fine)
-    while error > accuracy and 2 * steps <= most:
-        steps *= 2
-        coarse = fine if steps >= finest and judge == method else response(steps)
-        fine = response(2 * steps, judge) if 2 * steps > finest else fine
-        error = _estimated_error(coarse, fine)
-    if error > accuracy:
-        raise SimulationFailed(
-            Outcome.INACCURATE,
-            f"{method} with {steps} steps a sample of {rate:.6g} Hz is off by {error:.2g} of the acceleration's "
-            f"RMS, and {accuracy:g} is asked for",
-        )
-    return replace(coarse, error_estimate=error)
+    def once(self, steps: int) -> Trace:
+        """The response by so many `steps` a sample, without an estimate of its error.
+
+        Raises SimulationFailed for steps that are not stable.
+        """
+        require_stable(METHODS[self._method], self._rate, steps, self._least)
+        return self._march(steps, self._method)
+
+    def judged(self, steps: int) -> Trace:
+        """The same with an estimate, by what a step of half the length makes of it.
+
+        Or one of an even shorter step where `steps_over_spalls` asks for that, or another method where these are too
+        many.
+        """
+        coarse = self.once(steps)
+        return _estimated(coarse, self._march(max(2 * steps, self._finest), self._judge))
+
+    def halved_until(self, accuracy: float) -> Trace:
+        """The response by the fewest steps, doubled until the estimated error is within the `accuracy`.
+
+        Raises SimulationFailed where MOST_SUBSTEPS do not keep it.
+        """
+        steps = self.fewest
+        most = max(MOST_SUBSTEPS, steps)
+        coarse, fine = self.once(steps), self._march(max(2 * steps, self._finest), self._judge)
+        found = _estimated(coarse, fine)
+        while found.error_estimate > accuracy and 2 * steps <= most:
+            steps *= 2
+            coarse = fine if steps >= self._finest and self._judge == self._method else self.once(steps)
+            fine = self._march(2 * steps, self._judge) if 2 * steps > self._finest else fine
+            found = _estimated(coarse, fine)
+        if found.error_estimate > accuracy:
+            raise SimulationFailed(
+                Outcome.INACCURATE,
+                f"{self._method} with {steps} steps a sample of {self._rate:.6g} Hz is off by "
+                f"{found.error_estimate:.2g} of the acceleration's RMS, and {accuracy:g} is asked for",
+            )
+        return found
+
+    def _march(self, steps: int, method: str) -> Trace:
+        grid = Grid(self._samples, steps, 1.0 / (self._rate * steps))
+        return respond(self._scene, self._start, grid, method, self._keep)
 
 
 def default_substeps(scene: Scene, rate: float) -> int:
@@ -86,7 +107,8 @@ def steps_over_spalls(scene: Scene, rate: float) -> int:
     return max(1, math.ceil(STEPS_OF_A_PIECE * fastest / rate))
 
 
-def _estimated_error(coarse: Trace, fine: Trace) -> float:
-    """Estimated RMS error of the acceleration of `coarse`, relative to the RMS of `fine`, as if that were of half the
-    step and both of order 2; of a finer one it is an overestimate."""
-    return relative_error(coarse.acceleration, fine.acceleration) / (1.0 - 2.0**-ORDER)
+def _estimated(coarse: Trace, fine: Trace) -> Trace:
+    """`coarse` with the estimated RMS error of its acceleration, relative to the RMS of `fine`, as if that were of half
+    the step and both of order 2; of a finer one it is an overestimate."""
+    error = relative_error(coarse.acceleration, fine.acceleration) / (1.0 - 2.0**-ORDER)
+    return replace(coarse, error_estimate=error)

@@ -90,7 +90,7 @@ def report(out: Path, name: str, train: Path | str, tests: list[str], records: i
     asked = [part for test in tests for part in ("--test", test)]
     spallgen(
         "classify", "--train", train, *asked, "--first", records, "--workers", 1, *NOISE, *options, "--out", out / name
-    )  # fmt: skip
+    )
 
 
 def spallgen(*words: object) -> None:

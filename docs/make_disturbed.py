@@ -136,9 +136,7 @@ def require_no_angle(folder: Path) -> None:
         for record in corpus.labels["record"].tolist():
             if corpus.has(record, SHAFT_ANGLE.name):
                 problem = f"record {record} has a shaft angle, which cannot be disturbed with its signal"
-                raise BadInput(
-                    problem, file=str(folder), field="TEST", value=None, allowed="records without a shaft angle"
-                )
+                raise BadInput(problem, file=str(folder), field="TEST", allowed="records without a shaft angle")
 
 
 def read(folder: Path, label: pandas.Series[Any], name: str) -> RecordRows:

@@ -60,5 +60,5 @@ def unseen_records(tested: Corpus, learned: LearnedMachines) -> pandas.DataFrame
     if chosen.empty:
         problem = "all its virtual bearings, or all outside its split test, were learned from"
         allowed = "a corpus of a recipe with another seed, or one with a split test"
-        raise BadInput(problem, file=str(tested.folder), field=TEST_ON, value=None, allowed=allowed)
+        raise BadInput(problem, file=str(tested.folder), field=TEST_ON, allowed=allowed)
     return chosen

@@ -48,7 +48,7 @@ def checked(asked: Benchmark) -> Benchmark:
     estimator = _own_estimator(learning.estimator) if learning.estimator is not None else None
     if scoring.levels and learning.takes_windows:
         problem = "noise is added where features are computed"
-        raise BadInput(problem, file="", field="--noise-db", value=scoring.noise_db, allowed="--input features")
+        raise BadInput(problem, field="--noise-db", value=scoring.noise_db, allowed="--input features")
     if asked.learning_curve and estimator is not None and not hasattr(estimator, "fit"):
         problem = f"{learning.estimator} does not learn"
         raise BadInput(problem, field="--learning-curve", allowed="our learners, or an estimator with a method fit")

@@ -86,7 +86,6 @@ def _require_same(path: Path, head: dict[str, Any]) -> None:
                 f"was learned with {name} {head.get(name)}, and this is {now}",
                 file=str(path),
                 field=TRAIN,
-                value=None,
                 allowed=AGAIN,
             )
 

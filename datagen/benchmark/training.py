@@ -110,9 +110,7 @@ def training_records(folder: Path, also_tested: bool, first: int | None = None) 
     chosen = chosen.iloc[:first]
     if chosen["bearing_id"].nunique() < FEWEST_BEARINGS:
         allowed = f"a corpus with {FEWEST_BEARINGS} virtual bearings or more outside its split test"
-        raise BadInput(
-            "too few virtual bearings to learn from", file=str(folder), field=TRAIN, value=None, allowed=allowed
-        )
+        raise BadInput("too few virtual bearings to learn from", file=str(folder), field=TRAIN, allowed=allowed)
     return chosen
 
 

@@ -47,7 +47,7 @@ GOOD = '[[recording]]\nname = "all"\nfiles = "*.mat"\nunit = "g"\nrate_hz = 1000
         (('y = "sig"', 'y = "sig"\ntable = "sub"'), 'spec.toml: table = "sub": this is a folder'),
         (('y = "sig"', 'y = "sig"\ntable = "t.csv"'), 'spec.toml: table = "t.csv": no such file'),
     ],
-)  # fmt: skip
+)
 def test_a_setting_that_is_wrong_or_missing_is_named(
     change: tuple[str, str], message: str, bring: Bring, mat: Mat, tmp_path: Path
 ) -> None:
@@ -105,7 +105,7 @@ def test_a_setting_that_is_wrong_or_missing_is_named(
         ('rig = "{number}"', 'a.mat: rig = "{number}": is empty for this file; allowed: a name'),
         ("csv = {delimiter = '\"'}", 'csv.delimiter = """: this character is reserved for quotes or line ends'),
     ],
-)  # fmt: skip
+)
 def test_a_label_or_setting_that_cannot_be_is_refused(
     more: str, message: str, bring: Bring, mat: Mat, tmp_path: Path
 ) -> None:
@@ -246,7 +246,7 @@ def test_records_of_unknown_bearings_may_be_in_several_splits(bring: Bring, mat:
         ('file,location\n"a.mat,inner\n', "t.csv, line 2: not a row of a CSV table: unexpected end of data"),
         ('\nfile,recording\n\na.mat,"a\nb"\n\na.mat\n', "t.csv, line 7: 1 cells, but the table has 2 columns"),
     ],
-)  # fmt: skip
+)
 def test_a_wrong_line_of_a_label_table_is_named(
     table: str, message: str, bring: Bring, mat: Mat, tmp_path: Path
 ) -> None:

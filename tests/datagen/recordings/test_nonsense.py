@@ -188,7 +188,7 @@ def test_a_recipe_is_no_spec_and_a_byte_order_mark_is_no_matter(tmp_path: Path) 
         ('bearing = {balls = "x", pitch_diameter_mm = 9, ball_diameter_mm = 2}', 'bearing.balls = "x"; allowed: a'),
         ("bearing = 7", "bearing = 7; allowed: a text in quotes or a table"),
     ],
-)  # fmt: skip
+)
 def test_where_a_word_or_a_table_may_stand_the_message_is_about_what_was_written(
     setting: str, message: str, bring: Bring, mat: Mat, tmp_path: Path
 ) -> None:

@@ -36,7 +36,7 @@ def refusal(text: str, tmp_path: Path) -> str:
         ("test = 0.5", "test = 0.5: train = 0.7 (its default), validation = 0.15 (its default), test = 0.5 add up to"),
         ("train = 0.5\nvalidation = 0.3\ntest = 0.3", "train = 0.5: train = 0.5, validation = 0.3, test = 0.3 add up"),
     ],
-)  # fmt: skip
+)
 def test_shares_that_are_not_one_are_listed_with_those_that_nobody_stated(
     shares: str, message: str, tmp_path: Path
 ) -> None:

@@ -1,4 +1,4 @@
-"""What tests of imports share: the kinds of the fixtures that they ask for, noise, and how a refusal is read."""
+"""What tests of imports share: a SPEC, kinds of fixtures that they ask for, noise, and how a refusal is read."""
 
 from __future__ import annotations
 
@@ -11,6 +11,8 @@ import pytest
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
 
+# Of one file with one axis.
+SPEC = '[[recording]]\nname = "a"\nfiles = "a.mat"\ny = "sig"\nunit = "g"\nrate_hz = 1000\n'
 Bring = Callable[..., Corpus]
 Mat = Callable[..., np.ndarray]
 

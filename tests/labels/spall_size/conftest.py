@@ -1,6 +1,8 @@
 from __future__ import annotations
 
+import sys
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -9,6 +11,8 @@ from scipy.signal import lfilter
 from labels.spall_size.estimation.trees import Trees
 
 RATE = 65536.0
+
+sys.path.insert(0, str(Path(__file__).parent))  # so that tests can import made_passes
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""The simpler models: each near the nonlinear one where it says so, and silent about what it cannot know."""
+"""The impulse train: its steps of force, what they ring, and its contact changes."""
 
 import dataclasses
 import math
@@ -7,22 +7,17 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from physics.checks import InvalidParameter
 from physics.imperfections import Imperfections
-from physics.ladder.contact_sets import changes_between_samples
 from physics.ladder.impulse_train import edges_around, edges_within, impulse_response
-from physics.ladder.linear_time_varying import repeats_with_the_balls
-from physics.ladder.model_table import SIMPLER_MODELS
 from physics.modes import coupled_matrix, coupled_resonator_frequency, rated_matrices
-from physics.outcome import Outcome, SimulationFailed
 from physics.paths.passages import passages
 from physics.paths.profile import race_depth
-from physics.request import Accurate, FixedSteps, Simpler
+from physics.request import FixedSteps, Simpler
 from physics.rms import rms
 from physics.simulate import simulate
-from physics.statics.load_distribution import equilibrium, require_equilibrium
-from physics.statics.stiffness import stiffness_at, symmetric_matrices
-from physics.trace import ACCELERATION_ALONE, KEEPABLE, Kept
+from physics.statics.load_distribution import equilibrium
+from physics.statics.stiffness import symmetric_matrices
+from physics.trace import ACCELERATION_ALONE
 
 RATE = 65536.0
 
@@ -33,182 +28,6 @@ def edges_of(scene):
 
 def nonlinear(scene, keep=ACCELERATION_ALONE):
     return simulate(scene, RATE, FixedSteps(2), keep=keep)
-
-
-@pytest.mark.parametrize("name", SIMPLER_MODELS)
-def test_every_model_gives_a_trace_of_the_same_shape_and_says_which_it_is(name, reference_scene):
-    trace = simulate(reference_scene("G1", 0.05), RATE, Simpler(name))
-    assert trace.model == name
-    assert trace.acceleration.shape == (round(0.05 * RATE), 2)
-    assert np.all(np.isfinite(trace.acceleration))
-    assert math.isnan(trace.error_estimate)
-    assert trace.changes.initial.shape == (2, 12)
-
-
-def test_an_unknown_model_is_refused_with_the_known_ones():
-    with pytest.raises(InvalidParameter, match='model = "spice"; allowed: impulse train, quasi-static, linear'):
-        Simpler("spice")
-
-
-@pytest.mark.parametrize("name", SIMPLER_MODELS)
-@pytest.mark.parametrize("what", KEEPABLE)
-def test_what_a_model_does_not_know_is_refused_and_what_it_knows_is_there(name, what, reference_scene):
-    scene, keep = reference_scene("G1", 0.01), Kept(**{what: True})
-    if what in SIMPLER_MODELS[name].keeps:
-        trace = simulate(scene, RATE, Simpler(name), keep=keep)
-        assert (trace.state if what == "state" else trace.contact_force).shape[0] == trace.time.size
-    else:
-        with pytest.raises(InvalidParameter, match=rf"keep\.{what} = True; Simpler\(model='{name}'\) keeps "):
-            simulate(scene, RATE, Simpler(name), keep=keep)
-
-
-@pytest.mark.parametrize("rate", [1000.0, 6000.0, 16384.0])
-def test_models_that_ring_keep_their_size_at_rates_too_low_for_their_modes(rate, reference_scene):
-    scene = reference_scene("G1", 0.3)
-    for name in ("linear time-varying", "impulse train"):
-        low, high = simulate(scene, rate, Simpler(name)), simulate(scene, RATE, Simpler(name))
-        assert low.acceleration.shape == (round(0.3 * rate), 2)
-        below = np.abs(np.fft.rfft(high.acceleration[:, 1]))[: round(0.4 * 0.3 * rate)] / RATE
-        kept = np.abs(np.fft.rfft(low.acceleration[:, 1]))[: below.size] / rate
-        assert rms(kept) == pytest.approx(rms(below), rel=0.02)  # ripple of the filter, and the ends of the record
-
-
-def test_the_linear_model_of_stiff_contacts_takes_steps_that_are_stable_or_says_so(reference_scene):
-    scene = reference_scene("G1", 0.02)
-    light = dataclasses.replace(scene, rig=dataclasses.replace(scene.rig, inner_mass=1e-3))
-    trace = simulate(light, RATE, Simpler("linear time-varying"))
-    assert trace.step < 1.0 / RATE
-    assert np.isfinite(trace.acceleration).all()
-    nothing = dataclasses.replace(scene, rig=dataclasses.replace(scene.rig, inner_mass=1e-12))
-    with pytest.raises(SimulationFailed, match="is stable up to") as failure:
-        simulate(nothing, RATE, Simpler("linear time-varying"))
-    assert failure.value.outcome is Outcome.UNSTABLE_STEP
-
-
-@pytest.mark.parametrize("name", SIMPLER_MODELS)
-def test_no_model_gives_a_trace_where_no_position_carries_the_load(name, reference_scene):
-    scene = reference_scene("G1", 0.02)
-    soft = dataclasses.replace(scene.rig, bearing=dataclasses.replace(scene.rig.bearing, load_deflection=1e5))
-    crushed = dataclasses.replace(scene, rig=soft, operation=dataclasses.replace(scene.operation, load=1e7))
-    with pytest.raises(SimulationFailed, match=r"of 1e\+07 N") as failure:
-        simulate(crushed, RATE, Simpler(name))
-    assert failure.value.outcome is Outcome.NO_START
-
-
-# Contact forces stay near the static ones: the range that the model states. Larger on the fan rig's line spall.
-@pytest.mark.parametrize(("name", "tolerance"), [("G0", 0.03), ("G2", 0.01), ("G1s", 0.1), ("G1", 0.15)])
-def test_the_linear_model_is_near_the_nonlinear_one_where_forces_stay_near_the_static_ones(
-    name, tolerance, reference_scene
-):
-    scene = reference_scene(name, 0.15, slip_seed=3)
-    linear, full = simulate(scene, RATE, Simpler("linear time-varying")).acceleration, nonlinear(scene).acceleration
-    later = slice(round(0.05 * RATE), None)
-    assert rms(linear[later] - full[later]) < tolerance * rms(full[later])
-
-
-@pytest.mark.parametrize(("clearance", "low", "high"), [(0.0, 0.0, 0.03), (3e-6, 0.2, 0.5)])
-@pytest.mark.parametrize("name", ["G0", "F0"])
-def test_the_linear_model_of_a_healthy_bearing_holds_without_clearance_and_not_with_it(
-    name, clearance, low, high, reference_scene
-):
-    scene = reference_scene(name)
-    bearing = dataclasses.replace(scene.rig.bearing, clearance=clearance)
-    scene = dataclasses.replace(scene, rig=dataclasses.replace(scene.rig, bearing=bearing))
-    linear, full = (simulate(scene, RATE, way).acceleration for way in (Simpler("linear time-varying"), Accurate()))
-    later = slice(round(0.1 * RATE), None)
-    # Measured 0.011 and 0.018 without clearance, 0.34 to 0.36 with 3 µm; `holds_where` says so.
-    assert low <= rms(linear[later] - full[later]) / rms(full[later]) < high
-    assert "without clearance" in SIMPLER_MODELS["linear time-varying"].holds_where
-
-
-def test_the_linear_model_of_unequal_balls_knows_which_of_them_carries(reference_scene):
-    balls = ((1e-7, *(0.0,) * 11), (0.0,) * 12)
-    scene = dataclasses.replace(reference_scene("G0", 0.1), imperfections=Imperfections(ball_deviation=balls))
-    linear, full = (simulate(scene, RATE, way).acceleration for way in (Simpler("linear time-varying"), Accurate()))
-    assert rms(linear - full) < 0.05 * rms(full)  # 2 %, as where balls are alike
-
-
-def test_the_linear_model_in_time_is_the_one_over_cage_angle(reference_scene):
-    scene = reference_scene("G1s", 0.06)
-    in_time = dataclasses.replace(scene, second_cage=scene.cage)  # two cages that turn as one
-    assert repeats_with_the_balls(scene)
-    assert not repeats_with_the_balls(in_time)
-    one, other = (simulate(each, RATE, Simpler("linear time-varying")) for each in (scene, in_time))
-    assert rms(one.acceleration - other.acceleration) < 0.05 * rms(
-        one.acceleration
-    )  # kinks of the stiffness lie between other nodes
-    assert np.array_equal(one.changes.ball, other.changes.ball)
-    assert np.abs(one.changes.time - other.changes.time).max() <= 1.0 / RATE
-
-
-@pytest.mark.parametrize("operation", [{"unbalance_force": 50.0}, {"load_fluctuation": 0.3}])
-def test_the_linear_model_follows_loads_that_turn_with_the_shaft(operation, reference_scene):
-    scene = reference_scene("G0", 0.15)
-    scene = dataclasses.replace(scene, operation=dataclasses.replace(scene.operation, **operation))
-    assert not repeats_with_the_balls(scene)
-    keep = Kept(state=True)
-    linear, full = (simulate(scene, RATE, Simpler("linear time-varying"), keep=keep), nonlinear(scene, keep))
-    later = slice(round(0.05 * RATE), None)
-    moved = full.state[later, 0:4] - full.state[0, 0:4]
-    assert rms(linear.state[later, 0:4] - full.state[later, 0:4]) < 0.02 * rms(moved)  # hardening of the contacts
-
-
-def test_the_quasi_static_model_has_the_stiffness_and_loads_of_statics_and_no_vibration(reference_scene):
-    scene = reference_scene("G1", 0.05)
-    trace = simulate(scene, RATE, Simpler("quasi-static"), keep=Kept(state=True, force=True))
-    assert np.all(trace.acceleration == 0.0)
-    displacement = trace.state[:, 0:2] - trace.state[:, 2:4]
-    stiffness = stiffness_at(scene, trace.time, displacement)
-    expected = require_equilibrium(scene, trace.time).stiffness
-    assert np.allclose(stiffness, expected, rtol=0.0, atol=1e-9 * expected.max())  # what Newton's method leaves
-    vertical = -(trace.contact_force * np.sin(ball_angles(scene, trace.time))).sum(axis=(1, 2))
-    assert vertical == pytest.approx(scene.operation.load, rel=1e-6)  # the solver's tolerance
-
-
-def ball_angles(scene, time):
-    """Angles (T, rows, balls) of all balls on staggered rows, rad."""
-    bearing = scene.rig.bearing
-    row, ball = np.arange(bearing.rows)[:, None], np.arange(bearing.balls)
-    return scene.cage.angle(time)[:, None, None] + 2.0 * np.pi * ball / bearing.balls + row * np.pi / bearing.balls
-
-
-def test_the_quasi_static_support_gives_way_to_a_turning_load_and_carries_the_resonator_along(reference_scene):
-    scene = reference_scene("G0", 0.1)
-    force, load, share, speed = 100.0, scene.operation.load, 0.2, scene.operation.shaft_speed
-    turning = {"unbalance_force": force, "load_fluctuation": share, "fluctuation_phase": 0.7}
-    along, across = scene.rig.support_stiffness_x, 3.0 * scene.rig.support_stiffness_y
-    scene = dataclasses.replace(
-        scene,
-        rig=dataclasses.replace(scene.rig, support_stiffness_y=across),
-        operation=dataclasses.replace(scene.operation, **turning),
-    )
-    trace = simulate(scene, RATE, Simpler("quasi-static"), keep=Kept(state=True))
-    turned = speed * trace.time
-    swing = force * np.sin(turned) - load * share * np.cos(turned + 0.7)
-    assert trace.acceleration[:, 0] == pytest.approx(-(speed**2) * force / along * np.cos(turned), rel=1e-9)
-    assert trace.acceleration[:, 1] == pytest.approx(-(speed**2) * swing / across, abs=1e-12)  # rounding
-    assert trace.state[:, 3] == pytest.approx((swing - load) / across, rel=1e-9)
-    np.testing.assert_array_equal(trace.state[:, 4:6], trace.state[:, 2:4])  # nothing stretches its spring
-
-
-def test_quasi_static_ball_loads_along_the_contact_normals_carry_the_load(reference_scene):
-    scene, angle = reference_scene("G1", 0.02), 0.4
-    bearing = dataclasses.replace(scene.rig.bearing, contact_angle=angle)
-    scene = dataclasses.replace(scene, rig=dataclasses.replace(scene.rig, bearing=bearing))
-    force = simulate(scene, RATE, Simpler("quasi-static"), keep=Kept(force=True)).contact_force
-    vertical = -(force * math.cos(angle) * np.sin(ball_angles(scene, np.arange(force.shape[0]) / RATE))).sum(
-        axis=(1, 2)
-    )
-    assert vertical == pytest.approx(scene.operation.load, rel=1e-6)  # the solver's tolerance
-
-
-def test_quasi_static_contact_changes_are_those_of_motion_to_a_sample_where_nothing_rings(reference_scene):
-    scene = reference_scene("G0", 0.15)
-    found, exact = simulate(scene, RATE, Simpler("quasi-static")).changes, nonlinear(scene).changes
-    found, exact = ([(c.ball[k], c.row[k], c.time[k]) for k in np.flatnonzero(c.time > 0.05)] for c in (found, exact))
-    found, exact = np.array(sorted(found)), np.array(sorted(exact))
-    assert np.array_equal(found[:, :2], exact[:, :2])
-    assert np.abs(found[:, 2] - exact[:, 2]).max() < 2e-5  # s; a sample lasts 15 µs
 
 
 def test_a_healthy_bearing_makes_no_impulses(reference_scene):
@@ -391,45 +210,6 @@ def test_impulses_of_an_inner_spall_are_modulated_by_the_load_zone(reference_sce
     assert envelope[down].max() > 5.0 * envelope[up].max()  # the spall is at the bottom at t = 0
 
 
-def test_the_quasi_static_state_moves_as_the_cage_turns_it(reference_scene):
-    """Without slip a position depends on the cage's angle alone: its rate is the cage's speed times the slope there."""
-    scene = reference_scene("G0", 0.02)
-    trace = simulate(scene, RATE, Simpler("quasi-static"), keep=Kept(state=True))
-    velocity = trace.state[:, 6:8] - trace.state[:, 8:10]  # of the inner relative to the outer ring
-    turned = 1e-5  # rad
-    ahead, behind = (
-        equilibrium(dataclasses.replace(scene, cage=dataclasses.replace(scene.cage, start_angle=angle)), trace.time)
-        for angle in (scene.cage.start_angle + turned, scene.cage.start_angle - turned)
-    )
-    expected = (ahead.displacement - behind.displacement) / (2.0 * turned) * scene.cage.mean_speed
-    assert rms(expected) > 0.0
-    assert rms(velocity[1:-1] - expected[1:-1]) < 0.01 * rms(expected)
-
-
-def test_contact_changes_between_samples_lie_half_way():
-    touching = np.zeros((3, 1, 2), dtype=bool)
-    touching[1:, 0, 1] = True
-    changes = changes_between_samples(touching, np.array([0, 2, 3]), 10.0)
-    assert changes.time.tolist() == [0.15]  # samples at 0.1 and 0.2 s
-    assert (changes.row.tolist(), changes.ball.tolist(), changes.made.tolist()) == ([1], [2], [True])
-    assert not changes.initial.any()
-
-
-@pytest.mark.parametrize("name", ["G1", "F1p", "F2r"])
-def test_contact_changes_alone_are_those_of_balls_whose_force_was_kept(name, reference_scene):
-    scene, model = reference_scene(name, 0.1, slip_seed=2), Simpler("quasi-static")
-    alone, kept = (simulate(scene, RATE, model, keep=keep) for keep in (ACCELERATION_ALONE, Kept(force=True)))
-    assert (alone.state, alone.contact_force) == (None, None)
-    touching, changes = kept.contact_force > 0.0, alone.changes
-    sample, row, ball = np.nonzero(touching[1:] != touching[:-1])  # in the order of time
-    assert changes.time == pytest.approx((sample + 0.5) / RATE, rel=1e-12)
-    assert (changes.row - 1).tolist() == row.tolist()
-    assert (changes.ball - 1).tolist() == ball.tolist()
-    assert changes.made.tolist() == touching[sample + 1, row, ball].tolist()
-    assert np.array_equal(changes.initial, touching[0])
-    assert changes.time.size > 10
-
-
 def over_long_tapers(scene):
     """The scene without slip, its spall with tapers over which a ball sinks and rises for a while."""
     spall = dataclasses.replace(scene.spalls[0], extent=0.05, depth=60e-6, entry_taper=0.02, exit_taper=0.02)
@@ -525,12 +305,6 @@ def test_imperfections_of_balls_are_no_part_of_the_impulse_train(reference_scene
     )
     np.testing.assert_array_equal(uneven.acceleration, sound.acceleration)
     assert sound.acceleration.any()
-
-
-def test_quasi_static_positions_are_the_same_whether_forces_are_kept_too_or_not(reference_scene):
-    scene, model = reference_scene("G1", 0.05), Simpler("quasi-static")
-    alone, both = (simulate(scene, RATE, model, keep=Kept(state=True, force=force)) for force in (False, True))
-    np.testing.assert_array_equal(alone.state, both.state)
 
 
 def test_no_change_of_contact_lies_before_the_record(reference_scene):

@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from fine_runs import RATE, nonlinear
 from scipy.integrate import solve_ivp
 
 from physics.imperfections import Imperfections
@@ -12,22 +13,15 @@ from physics.ladder.impulse_train import edges_around, edges_within, impulse_res
 from physics.modes import coupled_matrix, coupled_resonator_frequency, rated_matrices
 from physics.paths.passages import passages
 from physics.paths.profile import race_depth
-from physics.request import FixedSteps, Simpler
+from physics.request import Simpler
 from physics.rms import rms
 from physics.simulate import simulate
 from physics.statics.load_distribution import equilibrium
 from physics.statics.stiffness import symmetric_matrices
-from physics.trace import ACCELERATION_ALONE
-
-RATE = 65536.0
 
 
 def edges_of(scene):
     return edges_within(edges_around(scene), scene.duration)
-
-
-def nonlinear(scene, keep=ACCELERATION_ALONE):
-    return simulate(scene, RATE, FixedSteps(2), keep=keep)
 
 
 def test_a_healthy_bearing_makes_no_impulses(reference_scene):

@@ -4,21 +4,16 @@ import dataclasses
 
 import numpy as np
 import pytest
+from fine_runs import RATE, nonlinear
 
 from physics.imperfections import Imperfections
 from physics.ladder.linear_time_varying import repeats_with_the_balls
 from physics.ladder.model_table import SIMPLER_MODELS
 from physics.outcome import Outcome, SimulationFailed
-from physics.request import Accurate, FixedSteps, Simpler
+from physics.request import Accurate, Simpler
 from physics.rms import rms
 from physics.simulate import simulate
-from physics.trace import ACCELERATION_ALONE, Kept
-
-RATE = 65536.0
-
-
-def nonlinear(scene, keep=ACCELERATION_ALONE):
-    return simulate(scene, RATE, FixedSteps(2), keep=keep)
+from physics.trace import Kept
 
 
 def test_the_linear_model_of_stiff_contacts_takes_steps_that_are_stable_or_says_so(reference_scene):

@@ -5,20 +5,15 @@ import math
 
 import numpy as np
 import pytest
+from fine_runs import RATE, nonlinear
 
 from physics.ladder.contact_sets import changes_between_samples
-from physics.request import FixedSteps, Simpler
+from physics.request import Simpler
 from physics.rms import rms
 from physics.simulate import simulate
 from physics.statics.load_distribution import equilibrium, require_equilibrium
 from physics.statics.stiffness import stiffness_at
-from physics.trace import ACCELERATION_ALONE, Kept
-
-RATE = 65536.0
-
-
-def nonlinear(scene, keep=ACCELERATION_ALONE):
-    return simulate(scene, RATE, FixedSteps(2), keep=keep)
+from physics.trace import Kept
 
 
 def test_the_quasi_static_model_has_the_stiffness_and_loads_of_statics_and_no_vibration(reference_scene):

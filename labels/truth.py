@@ -15,7 +15,7 @@ from physics.paths.profile import build_path
 from physics.scene import Scene
 from physics.trace import ContactChanges
 
-Number = NDArray[np.int16]
+Numbers = NDArray[np.int16]
 
 
 @dataclass(frozen=True)
@@ -32,9 +32,9 @@ class PassTable:
     `loaded`: the ball touches both races at some moment of the pass; `complete`: all its times lie inside the record.
     """
 
-    row: Number
-    ball: Number
-    defect: Number
+    row: Numbers
+    ball: Numbers
+    defect: Numbers
     entry_time: Array
     deepest_time: Array
     exit_time: Array
@@ -105,7 +105,7 @@ def _passes_over(scene: Scene, changes: ContactChanges | None, duration: float, 
     )
 
 
-def _crossings(scene: Scene, defect: int, duration: float) -> tuple[Number, Array, Array, Array]:
+def _crossings(scene: Scene, defect: int, duration: float) -> tuple[Numbers, Array, Array, Array]:
     """Ball (N,) from 1 and times (N,) at which it enters, is deepest in and leaves a spall, each pass of a record."""
     spall = scene.spalls[defect]
     half = spall.extent / 2.0

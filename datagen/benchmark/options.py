@@ -8,6 +8,7 @@ from typing import Any
 from datagen.judging.stated_speed import SPEED_ERROR
 
 FEATURES, WINDOWS = "features", "windows"
+# What refusals call the options of `classify`.
 SAVE, TRAIN, TEST_ON = "--save", "--train", "--test"
 # What `--train` calls the rows of features that come with the program.
 TRANSFER_ROWS = "transfer-rows"

@@ -55,18 +55,20 @@ def preview_png(source: str | Path, record: int, say: Say = ignore) -> tuple[byt
     folder = Path(source)
     if is_recipe(folder):
         portrait = recipe_portrait(source, record, say)
-        return sheet_png(portrait), _facts(portrait)
-    manifest = manifest_path(folder)
-    if not manifest.exists():
-        if has_finished_shards(folder):
-            raise no_corpus(folder, manifest.name)
-        raise BadInput(
-            f"neither a corpus ({manifest.name}) nor a recipe ({FILE_NAME}) is in this folder", file=str(folder)
-        )
-    if read_manifest(folder).imported:
-        return _measured_png(folder, record)
-    portrait = corpus_portrait(folder, record)
+    else:
+        _require_manifest(folder)
+        if read_manifest(folder).imported:
+            return _measured_png(folder, record)
+        portrait = corpus_portrait(folder, record)
     return sheet_png(portrait), _facts(portrait)
+
+
+def _require_manifest(folder: Path) -> None:
+    name = manifest_path(folder).name
+    if not manifest_path(folder).exists():
+        if has_finished_shards(folder):
+            raise no_corpus(folder, name)
+        raise BadInput(f"neither a corpus ({name}) nor a recipe ({FILE_NAME}) is in this folder", file=str(folder))
 
 
 def _measured_png(folder: Path, record: int) -> tuple[bytes, dict[str, Any]]:

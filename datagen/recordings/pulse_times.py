@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from datagen.errors import BadInput
 from datagen.recordings.pulses import rising_edges
 from datagen.recordings.settings import Tach
 from datagen.recordings.source import Source
@@ -29,11 +28,13 @@ def _listed(source: Source, tach: Tach, duration: float) -> Array:
     said = source.instants(tach.variable, "tach.variable") * tach.factor
     times = said - source.first_time()
     if said.size and not ((times >= 0.0) & (times <= duration)).any():
-        raise BadInput(
+        raise source.refusal(
             f"its pulses are from {times[0]:.4g} to {times[-1]:.4g} s after the first sample, and the vibration lasts "
-            f"{duration:.4g} s", file=str(source.path), field="tach.variable", value=tach.variable,
-            allowed="times in s by the clock of the vibration; tach.factor brings others to s",
-        )  # fmt: skip
+            f"{duration:.4g} s",
+            "tach.variable",
+            tach.variable,
+            "times in s by the clock of the vibration; tach.factor brings others to s",
+        )
     return times
 
 
@@ -41,12 +42,11 @@ def _risen(source: Source, tach: Tach, rate: float, size: int) -> Array:
     """The times at which a channel beside a vibration of `size` samples at `rate`, Hz, rises."""
     pulses = source.array(tach.variable, "tach.variable")
     if tach.rate_hz is None and pulses.size != size:
-        raise BadInput(
+        raise source.refusal(
             f"holds {pulses.size} samples, the vibration {size}",
-            file=str(source.path),
-            field="tach.variable",
-            value=tach.variable,
-            allowed="equally many, or the sampling rate of the pulses in tach.rate_hz, or tach.times = true if these "
+            "tach.variable",
+            tach.variable,
+            "equally many, or the sampling rate of the pulses in tach.rate_hz, or tach.times = true if these "
             "are the times of pulses",
         )
     if tach.rate_hz is not None:
@@ -59,10 +59,9 @@ def _require_as_long(source: Source, rate: float, size: int, duration: float) ->
     `duration` (s): usually that rate is wrong, and the speed would be too."""
     lasts = size / rate
     if abs(lasts - duration) > LASTS_WITHIN * duration:
-        raise BadInput(
+        raise source.refusal(
             f"its {size} samples then last {lasts:.4g} s, the vibration {duration:.4g} s",
-            file=str(source.path),
-            field="tach.rate_hz",
-            value=rate,
-            allowed=f"a rate at which both last equally long, within {LASTS_WITHIN:.0%}",
+            "tach.rate_hz",
+            rate,
+            f"a rate at which both last equally long, within {LASTS_WITHIN:.0%}",
         )

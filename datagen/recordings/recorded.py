@@ -144,21 +144,9 @@ def _rate(source: Source) -> float:
     if file_format(source.path, source.setting("format")) == "wav":
         held = float(source.arrays[RATE_NAME])
         if stated not in (None, held):
-            raise BadInput(
-                "the file states another rate",
-                file=str(source.path),
-                field="rate_hz",
-                value=stated,
-                allowed=f"{held:g}",
-            )
+            raise source.refusal("the file states another rate", "rate_hz", stated, f"{held:g}")
         if not in_range("rate_hz", held):
-            raise BadInput(
-                "the file's own",
-                file=str(source.path),
-                field="rate_hz",
-                value=held,
-                allowed=RANGES["rate_hz"].allowed(),
-            )
+            raise source.refusal("the file's own", "rate_hz", held, RANGES["rate_hz"].allowed())
         return held
     if stated is None:
         raise BadInput(
@@ -204,12 +192,11 @@ def _accelerations(counts: NDArray[np.float64], factor: float, source: Source) -
         scaled = counts * factor
     largest = float(np.abs(scaled).max())
     if not largest <= LARGEST_ACCELERATION:
-        raise BadInput(
+        raise source.refusal(
             f"the largest sample would be {largest:.3g} m/s²",
-            file=str(source.path),
-            field="scale",
-            value=source.number("scale") or 1.0,
-            allowed=f"samples up to {LARGEST_ACCELERATION:g} m/s²",
+            "scale",
+            source.number("scale") or 1.0,
+            f"samples up to {LARGEST_ACCELERATION:g} m/s²",
         )
     return scaled.astype(np.float32)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -21,30 +22,18 @@ def rate_of(times: NDArray[np.float64], path: Path, wish: str) -> float:
     Of the rates that the rounded times allow it is the one with the fewest digits: the files of a data set are rounded
     differently but have the same rate. Raises BadInput naming file and variable if the times do not rise evenly.
     """
-    beside = 0.0
+    refusal, beside = partial(BadInput, file=str(path), field="rate_hz", value=wish), 0.0
     if times.size == 1:
         step = float(times.ravel()[0])
     elif times.ndim == 1:
         step = float(times[-1] - times[0]) / (times.size - 1)
         beside = float(np.abs(times - times[0] - step * np.arange(times.size)).max())
         if beside > max(2.0 * abs(step), ROUNDING * abs(step) * times.size):
-            raise BadInput(
-                "these times are not evenly spaced",
-                file=str(path),
-                field="rate_hz",
-                value=wish,
-                allowed="one step between all samples",
-            )
+            raise refusal("these times are not evenly spaced", allowed="one step between all samples")
     else:
         step = 0.0
     if not (0.0 < step < math.inf and 1.0 / step < math.inf):
-        raise BadInput(
-            "is not a column of rising times",
-            file=str(path),
-            field="rate_hz",
-            value=wish,
-            allowed="times or their step, s",
-        )
+        raise refusal("is not a column of rising times", allowed="times or their step, s")
     return _roundest(step, 2.0 * beside / max(times.size - 1, 1))
 
 

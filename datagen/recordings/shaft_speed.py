@@ -90,7 +90,7 @@ def _irregular(source: Source, tach: Tach, times: NDArray[np.float64], whole: in
     else:
         problem = f"{wrong} of the {whole} pulses of its tach are missing or double"
         allowed = f"a signal with the same number of pulses in each turn, of which {MOST_MENDED:.0%} may be wrong"
-    return BadInput(problem, file=str(source.path), field="tach.variable", value=tach.variable, allowed=allowed)
+    return source.refusal(problem, "tach.variable", tach.variable, allowed)
 
 
 def _require_nominal(source: Source, tach: Tach, times: NDArray[np.float64], start: float, stop: float) -> None:
@@ -101,13 +101,11 @@ def _require_nominal(source: Source, tach: Tach, times: NDArray[np.float64], sta
         return
     mean = tach_speed(source, tach, times, start, stop)
     if abs(mean - nominal) > NOMINAL_WITHIN * nominal:
-        raise BadInput(
+        raise source.refusal(
             f"its pulses give {mean:.6g} revolutions per minute, but nominal_speed_rpm = {nominal:g}",
-            file=str(source.path),
-            field="tach.pulses_per_rev",
-            value=tach.pulses_per_rev,
-            allowed=f"a number of pulses per revolution that brings both within {NOMINAL_WITHIN:.0%}, or another "
-            "nominal speed",
+            "tach.pulses_per_rev",
+            tach.pulses_per_rev,
+            f"a number of pulses per revolution that brings both within {NOMINAL_WITHIN:.0%}, or another nominal speed",
         )
 
 
@@ -190,17 +188,18 @@ def tach_speed(source: Source, tach: Tach, times: NDArray[np.float64], start: fl
     inside = times[(times >= start) & (times < stop)]
     if inside.size < FEWEST_PULSES:
         remark = TIMES_IN_S if tach.times else LEVEL
-        raise BadInput(
+        raise source.refusal(
             f"{counted(inside.size, 'pulse')} from {start:g} to {stop:g} s",
-            file=str(source.path),
-            field="tach.variable",
-            value=tach.variable,
-            allowed=f"at least {FEWEST_PULSES} pulses; {remark}",
+            "tach.variable",
+            tach.variable,
+            f"at least {FEWEST_PULSES} pulses; {remark}",
         )
     speed = float((inside.size - 1) / (inside[-1] - inside[0]) / tach.pulses_per_rev * RPM_PER_HZ)
     if not in_range("speed_rpm", speed):
-        raise BadInput(
-            f"its pulses give {speed:.4g} revolutions per minute", file=str(source.path), field="tach.pulses_per_rev",
-            value=tach.pulses_per_rev, allowed=f"pulses that give {RANGES['speed_rpm'].allowed()}",
-        )  # fmt: skip
+        raise source.refusal(
+            f"its pulses give {speed:.4g} revolutions per minute",
+            "tach.pulses_per_rev",
+            tach.pulses_per_rev,
+            f"pulses that give {RANGES['speed_rpm'].allowed()}",
+        )
     return speed

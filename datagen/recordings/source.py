@@ -54,6 +54,10 @@ class Source:
         """The file."""
         return self.request.path
 
+    def refusal(self, problem: str, field: str, value: object, allowed: str = "") -> BadInput:
+        """The refusal of what this file holds, or of what the SPEC wants of it, under the name of its setting."""
+        return BadInput(problem, file=str(self.path), field=field, value=value, allowed=allowed)
+
     def setting(self, name: str, default: Any = None) -> Any:
         """A setting as the SPEC says it, `default` if it says nothing."""
         return self.request.settings.get(name, default)
@@ -66,7 +70,7 @@ class Source:
         more = {"path": place_without_ending(request.name), "channel": request.channel.name}
         text = filled(said, self.path, name, more).strip()
         if not text:
-            raise BadInput("is empty for this file", file=str(self.path), field=name, value=said, allowed="a name")
+            raise self.refusal("is empty for this file", name, said, "a name")
         return text
 
     def array(self, wish: str, field: str, fill: Callable[[Array, NDArray[np.intp]], Array] = straight) -> Array:
@@ -74,13 +78,7 @@ class Source:
         that."""
         found = self._row(wish, field)
         if found.size < FEWEST_STORED_SAMPLES:
-            raise BadInput(
-                f"holds {found.size} samples",
-                file=str(self.path),
-                field=field,
-                value=wish,
-                allowed=f"at least {FEWEST_STORED_SAMPLES} samples",
-            )
+            raise self.refusal(f"holds {found.size} samples", field, wish, f"at least {FEWEST_STORED_SAMPLES} samples")
         values = found.astype(np.float64)
         bad = self.missing(wish, field)
         if not bad.size:
@@ -107,13 +105,7 @@ class Source:
         falls = np.flatnonzero(np.diff(told) <= 0.0)
         if falls.size:
             at = falls[0]
-            raise BadInput(
-                f"{told[at + 1]:g} follows {told[at]:g}",
-                file=str(self.path),
-                field=field,
-                value=wish,
-                allowed="times that rise throughout",
-            )
+            raise self.refusal(f"{told[at + 1]:g} follows {told[at]:g}", field, wish, "times that rise throughout")
         return told
 
     def first_time(self) -> float:
@@ -128,14 +120,12 @@ class Source:
         """The real numbers (T,) of a variable that is a single channel."""
         found = choose(self.arrays, wish, self.path, field)
         if found.dtype.kind not in "iuf":
-            raise BadInput(f"holds {found.dtype}, not real numbers", file=str(self.path), field=field, value=wish)
+            raise self.refusal(f"holds {found.dtype}, not real numbers", field, wish)
         if found.ndim != 1 and found.size:
             shape = "x".join(map(str, found.shape)) or "one number"
             lying = found.ndim == 2 and found.shape[0] < found.shape[1]
             allowed = 'one row, as in "NAME[0,:]"' if lying else 'one column, as in "NAME[:,0]"'
-            raise BadInput(
-                f"is not a single channel ({shape})", file=str(self.path), field=field, value=wish, allowed=allowed
-            )
+            raise self.refusal(f"is not a single channel ({shape})", field, wish, allowed)
         return found
 
     def _empty(self, wish: str, field: str) -> bool:
@@ -161,9 +151,9 @@ class Source:
             problem = f"{bad.size} of {size} cells are not finite numbers, {which} {shown}{self.arrays.hint}"
             return BadInput(problem, file=f"{self.path}, line {line}", field=field, value=wish, allowed=allowed)
         if size == 1:
-            return BadInput("is not a finite number", file=str(self.path), field=field, value=wish)
+            return self.refusal("is not a finite number", field, wish)
         problem = f"{bad.size} of {size} samples are not finite numbers, the first at sample {bad[0]} (from 0)"
-        return BadInput(problem, file=str(self.path), field=field, value=wish, allowed=allowed)
+        return self.refusal(problem, field, wish, allowed)
 
     def variable(self, wish: str, field: str) -> str:
         """Name of the variable that the SPEC's `wish` means in this file, "" if there is none."""
@@ -187,7 +177,7 @@ class Source:
             problem = f"from the variable {said.variable}" + (", whose times are read as s" if said.times else "")
             remark = FACTOR if said.times else ANOTHER_UNIT if said.factor == 1.0 else ""
             allowed = "; ".join(filter(None, [RANGES[name].allowed(), remark]))
-            raise BadInput(problem, file=str(self.path), field=name, value=value, allowed=allowed)
+            raise self.refusal(problem, name, value, allowed)
         return value
 
     def _finite_numbers(self, said: FromVariable, field: str) -> NDArray[Any]:
@@ -195,9 +185,7 @@ class Source:
         found = choose(self.arrays, said.variable, self.path, field)
         if found.dtype.kind not in "iuf" or not found.size:
             allowed = TIMES if said.times else ""
-            raise BadInput(
-                "is not a finite number", file=str(self.path), field=field, value=said.variable, allowed=allowed
-            )
+            raise self.refusal("is not a finite number", field, said.variable, allowed)
         bad = np.flatnonzero(~np.isfinite(found))
         if bad.size:
             one = MOST_OF_THEM if bad.size < found.size / 2 else ONE_OF_THEM
@@ -220,12 +208,8 @@ class Source:
     def _mean(self, found: NDArray[Any], wish: str, field: str) -> float:
         zeros = found.size - np.count_nonzero(found)
         if found.size / 2 < zeros < found.size:
-            raise BadInput(
-                f"is 0 in {zeros} of {found.size} places, so its mean means nothing",
-                file=str(self.path),
-                field=field,
-                value=wish,
-                allowed=ONE_OF_THEM,
+            raise self.refusal(
+                f"is 0 in {zeros} of {found.size} places, so its mean means nothing", field, wish, ONE_OF_THEM
             )
         return float(np.mean(found, dtype=np.float64))
 
@@ -244,7 +228,7 @@ class Source:
         name, _ = chosen(self.arrays, wish, self.path, field)
         shape = "x".join(map(str, np.shape(self.arrays[name])))
         problem = f"holds {found.size} numbers from {found.min():g} to {found.max():g} ({name} is {shape})"
-        return BadInput(problem, file=str(self.path), field=field, value=wish, allowed=allowed)
+        return self.refusal(problem, field, wish, allowed)
 
     def course(self, name: str, span: Span = WHOLE) -> Array | None:
         """The numbers (N,), 0 or above, that a variable holds along a `span` of the recording; None if it holds no such

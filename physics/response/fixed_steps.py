@@ -32,7 +32,8 @@ ROUNDING = 1e-9  # of a floor that two tapers leave nothing of
 
 
 class Stepping:
-    """Responses at k / `rate` (Hz) by one method of fixed steps, so many `samples` from the first position at `rest`.
+    """Responses at k / `rate` (Hz) by one method of fixed steps, so many `samples` from the first position at `rest`,
+    with what a Trace is to `keep`.
 
     `fewest` steps a sample are stable in all positions and resolve the fastest mode.
     """

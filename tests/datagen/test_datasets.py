@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import math
+import re
 from collections import Counter
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+from datagen.errors import BadInput
 from datagen.recipes.recipe import load_recipe
 from datagen.recipes.recipe_files import shipped_recipes
 from datagen.scenarios.sampling import draw_scenario
@@ -16,6 +19,9 @@ from physics import catalog
 from physics.spall import Spall
 
 REFERENCES = ["0", "1", "1s", "1p", "2", *["2r"] * 10]
+
+
+PAGE = (Path(__file__).parents[2] / "datasets" / "README.md").read_text(encoding="utf-8")
 
 
 def scenarios(name: str) -> list[Scenario]:
@@ -160,3 +166,19 @@ def test_the_imperfect_bearings_are_for_training_only_and_hold_spalls_of_every_s
     shares = np.array([spall.extent / bearing.spacing for spall, bearing in spalls])
     assert (shares.min() < 0.04, shares.max() > 1.0) == (True, True)
     assert 0.3 < np.mean(shares < 0.15) < 0.7  # log-uniform: half of the line spalls, and few are extended
+
+
+def test_all_of_the_recipe_in_the_page_but_its_defect_must_be_given(tmp_path: Path) -> None:
+    (recipe,) = re.findall(r"^```toml\n(name = .*?)^```$", PAGE, re.MULTILINE | re.DOTALL)
+    path, lines = tmp_path / "recipe.toml", recipe.splitlines()
+    path.write_text(recipe)
+    draw_scenario(load_recipe(path), 0)
+    spared = []
+    for line in filter(str.strip, lines):
+        path.write_text("\n".join(one for one in lines if one != line))
+        try:
+            load_recipe(path)
+        except BadInput:
+            continue
+        spared.append(line.split(" = ")[0])
+    assert spared == ["defect"]

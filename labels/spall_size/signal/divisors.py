@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-# Below any level of a signal, and above the least number that can be divided by.
+# Below the level of any signal that is not silent.
 TINIEST = 1e-300
 
 

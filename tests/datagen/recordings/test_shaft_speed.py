@@ -3,7 +3,6 @@ from __future__ import annotations
 import json
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any
 
 import numpy as np
 import pytest
@@ -17,13 +16,14 @@ from datagen.recordings.importing import import_recordings
 from datagen.recordings.pulses import rising_edges
 from datagen.recordings.settings import Tach
 from datagen.recordings.shaft_speed import is_steady, shaft_angle, tach_speed
+from datagen.recordings.source import Source
 from datagen.recordings.spec import load_spec
 
 
 def test_a_pulse_at_the_end_of_a_piece_belongs_to_the_next() -> None:
     pulses = np.zeros(1000)
     pulses[[100, 200, 300, 450, 500, 550]] = 1.0
-    source: Any = SimpleNamespace(path="made-up")
+    source = Source(SimpleNamespace(path="made-up"), {})  # type: ignore[arg-type]
     tach = Tach(variable="tacho", threshold=1.0)  # edges on the very samples
     times = rising_edges(pulses, 1.0) / 1000.0
     assert tach_speed(source, tach, times, 0.0, 0.45) == pytest.approx(600.0)
@@ -31,7 +31,7 @@ def test_a_pulse_at_the_end_of_a_piece_belongs_to_the_next() -> None:
 
 
 def test_three_pulses_are_the_fewest_that_give_a_speed() -> None:
-    source: Any = SimpleNamespace(path="made-up")
+    source = Source(SimpleNamespace(path="made-up"), {})  # type: ignore[arg-type]
     tach, times = Tach(variable="tacho"), np.array([0.1, 0.2, 0.3])
     assert tach_speed(source, tach, times, 0.0, 1.0) == pytest.approx(600.0)
     with pytest.raises(BadInput, match="2 pulses from 0 to 1 s; allowed: at least 3 pulses"):
@@ -39,7 +39,7 @@ def test_three_pulses_are_the_fewest_that_give_a_speed() -> None:
 
 
 def test_times_of_pulses_in_another_unit_than_s_come_with_the_factor_that_makes_s_of_them() -> None:
-    source: Any = SimpleNamespace(path="made-up")
+    source = Source(SimpleNamespace(path="made-up"), {})  # type: ignore[arg-type]
     tach, times = Tach(variable="tacho", times=True), np.array([0.3, 40_541.0, 81_081.0])
     with pytest.raises(BadInput, match=r"1 pulse from 0 to 4 s; .*in s: tach\.factor = 1e-3 for ms, 1e-6"):
         tach_speed(source, tach, times, 0.0, 4.0)

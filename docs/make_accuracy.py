@@ -11,6 +11,7 @@ from marked_tables import write_marked
 from matplotlib.figure import Figure
 
 from datagen.drawing.style import BLUE, GREY, INK, VERMILLION, faint_grid, png_of, with_panels
+from datagen.files.text_tables import markdown_table
 
 DOCS = Path(__file__).parent
 SETS = {"0.1 s": "own_choice.json", "1 s": "own_choice_1s.json"}
@@ -20,24 +21,28 @@ BESIDE = 1.5  # of the outermost dots, to the ends of the axis
 
 def table() -> str:
     """One row a set of scenes."""
-    lines = [
-        "| length | scenes | no trajectory converges (called chaotic) | their spectra apart, at most | judged "
-        "| kept 1e-3 | kept what the recipe asks for | worst error | error over its estimate, 5 to 95 % "
-        "| cost over hindsight (scenes) |",
-        "|---" * 10 + "|",
-    ]
+    head = ["length", "scenes", "no trajectory converges (called chaotic)", "their spectra apart, at most", "judged"]
+    head += ["kept 1e-3", "kept what the recipe asks for", "worst error", "error over its estimate, 5 to 95 %"]
+    head += ["cost over hindsight (scenes)"]
+    rows = []
     for length, name in SETS.items():
         found = json.loads((DOCS / name).read_text(encoding="utf-8"))["summary"]
         low, _, high = found["error_over_estimate"]
         apart = found["unsettled_spectra_apart_db"]
-        lines.append(
-            f"| {length} | {found['scenes']} | {found['unsettled']} ({found['unsettled_called_chaotic']}) | "
-            f"{'–' if apart is None else f'{apart:.1f} dB'} | "
-            f"{found['judged']} | {found['kept_the_accuracy']} ({100.0 * found['share_kept']:.1f} %) | "
-            f"{found['own_accuracy_kept']} | {found['worst_error']:.1e} | {low:.2f} to {high:.2f} | "
-            f"{found['cost_over_hindsight']:.2f} ({found['rivalled']}) |"
-        )
-    return "\n".join(lines)
+        cells = [
+            length,
+            found["scenes"],
+            f"{found['unsettled']} ({found['unsettled_called_chaotic']})",
+            "–" if apart is None else f"{apart:.1f} dB",
+            found["judged"],
+            f"{found['kept_the_accuracy']} ({100.0 * found['share_kept']:.1f} %)",
+            found["own_accuracy_kept"],
+            f"{found['worst_error']:.1e}",
+            f"{low:.2f} to {high:.2f}",
+            f"{found['cost_over_hindsight']:.2f} ({found['rivalled']})",
+        ]
+        rows.append(cells)
+    return markdown_table(head, rows)
 
 
 def judged_rows(name: str) -> list[dict[str, Any]]:

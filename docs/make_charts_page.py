@@ -10,6 +10,7 @@ from typing import Any
 from marked_tables import write_marked
 
 from datagen import versions
+from datagen.files.text_tables import markdown_table
 
 CHARTS = Path(__file__).with_name("charts")
 PAGE = CHARTS / "README.md"
@@ -67,7 +68,7 @@ def rival(found: tuple[str, float] | None, speed: float) -> str:
     return f"{found[1]:.2g} ({found[0].split(',')[0]}): {speed / found[1]:.0f} times slower"
 
 
-def speeds(charts: dict[str, Facts]) -> list[str]:
+def speeds(charts: dict[str, Facts]) -> str:
     """One row a scene: the default, its fastest accurate run, and the fastest rival of each kind against that."""
     heads = (
         "`modal`, 1e-3 asked: times real time (error)",
@@ -80,7 +81,7 @@ def speeds(charts: dict[str, Facts]) -> list[str]:
         accurate, repeated = fastest_run(chart), at_accuracy(chart, REPEATED, DEFAULT)
         cells = [in_words(default_run(chart)), in_words(accurate), in_words(repeated)]
         rows[name] = cells + [rival(fastest(chart, *kind), accurate["real_time"]) for kind in RIVALS]
-    return [*by_scene(heads, rows), "", f"Measured on {versions.in_words(made_with(charts))}."]
+    return f"{by_scene(heads, rows)}\n\nMeasured on {versions.in_words(made_with(charts))}."
 
 
 def made_with(charts: dict[str, Facts]) -> dict[str, str]:
@@ -101,7 +102,7 @@ def fastest_run(chart: Facts) -> Facts:
     return max((run for run in runs_of(chart, MARCHED) if error(run) <= DEFAULT), key=lambda run: run["real_time"])
 
 
-def accuracies(charts: dict[str, Facts]) -> list[str]:
+def accuracies(charts: dict[str, Facts]) -> str:
     """One row a scene: what a tenth of the error costs, what was missed, and how near any run is to the reference."""
     heads = (
         "speed lost from 1e-3 to 1e-4 asked",
@@ -125,7 +126,7 @@ def missed(chart: Facts) -> str:
     return ", ".join(f"{run['name']}: {asked(run):g} asked, {error(run):.1e} got" for run in late) or "none"
 
 
-def simpler(charts: dict[str, Facts]) -> list[str]:
+def simpler(charts: dict[str, Facts]) -> str:
     """One row a scene: speed and error of the simpler models beside the default."""
     rows = {
         name: [in_words(default_run(chart)), *(in_words(runs_of(chart, model)[0]) for model in MODELS)]
@@ -134,17 +135,16 @@ def simpler(charts: dict[str, Facts]) -> list[str]:
     return by_scene(("`modal`, 1e-3 asked", *MODELS), rows)
 
 
-def by_scene(heads: Sequence[str], rows: Mapping[str, Sequence[str]]) -> list[str]:
-    """The lines of a table with a row of cells a scene."""
-    lines = [f"| scene | {' | '.join(heads)} |", "|---" * (1 + len(heads)) + "|"]
-    return [*lines, *(f"| {name} | {' | '.join(cells)} |" for name, cells in rows.items())]
+def by_scene(heads: Sequence[str], rows: Mapping[str, Sequence[str]]) -> str:
+    """A table with a row of cells a scene."""
+    return markdown_table(["scene", *heads], [[name, *cells] for name, cells in rows.items()])
 
 
 def main() -> None:
     """Write the tables."""
     charts = {name: json.loads((CHARTS / f"{name}.json").read_text(encoding="utf-8")) for name in SCENES}
-    for name, lines in (("speeds", speeds), ("accuracies", accuracies), ("simpler models", simpler)):
-        write_marked(PAGE, name, __file__, "\n".join(lines(charts)))
+    for name, table in (("speeds", speeds), ("accuracies", accuracies), ("simpler models", simpler)):
+        write_marked(PAGE, name, __file__, table(charts))
 
 
 if __name__ == "__main__":

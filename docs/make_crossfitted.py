@@ -25,6 +25,7 @@ from datagen.benchmark.summary import summarise
 from datagen.benchmark.training import train_models, train_rule, training_records, training_set
 from datagen.benchmark.verdicts import Judges, Tested, pool
 from datagen.corpus import Corpus
+from datagen.files.text_tables import markdown_table
 
 FOLDS = 5
 FOUND = Path(__file__).with_name("crossfitted.json")
@@ -54,13 +55,10 @@ def report(folder: Path, scores: CorpusScores) -> dict[str, Any]:
 def table(kept: dict[str, Any]) -> str:
     """One row a model, and what it was made of."""
     scores = kept["scores"]
-    lines = [
-        "| model | outer and inner | minus rule | race alone | AUC | false alarms | of healthy bearings "
-        "| calibration error |",
-        "|---" * 8 + "|",
-    ]
-    for name, said in scores["models"].items():
-        cells = (
+    head = ["model", "outer and inner", "minus rule", "race alone", "AUC", "false alarms", "of healthy bearings"]
+    head += ["calibration error"]
+    rows = [
+        [
             name,
             interval(said[FAULTS]),
             interval(said["minus_rule"][FAULTS]) if "minus_rule" in said else "",
@@ -69,10 +67,11 @@ def table(kept: dict[str, Any]) -> str:
             counted(said["false_alarms"], said["healthy"]),
             f"{said['alarming_bearings']} of {said['healthy_bearings']}",
             calibration(said),
-        )
-        lines.append("| " + " | ".join(cells) + " |")
+        ]
+        for name, said in scores["models"].items()
+    ]
     records = f"{scores['records']} records of `{scores['corpus']}`, simulated by physics {kept['physics']}"
-    return "\n".join([*lines, "", f"{records}; its machines in {kept['folds']} parts."])
+    return f"{markdown_table(head, rows)}\n\n{records}; its machines in {kept['folds']} parts."
 
 
 def main(folder: Path) -> None:

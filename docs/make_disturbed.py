@@ -31,6 +31,7 @@ from datagen.benchmark.training import train_models, train_rule, training_record
 from datagen.benchmark.verdicts import Judges, Tested
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
+from datagen.files.text_tables import markdown_table
 from datagen.judging.scored_runs import write_line
 from labels.variables import SHAFT_ANGLE
 from physics.bearing import RACES
@@ -181,18 +182,17 @@ def main(train: Path, tests: list[Path]) -> None:
     training = training_set(train, training_records(train, False), Benchmark(train, ()).training_reading(), WORKERS)
     judges = Judges(train_rule(training), train_models(training, "all"))
     names = ["rule", *(model.name for model in judges.models)]
-    head = " | ".join(f"{name}: faults, race, false alarms" for name in names)
-    lines = [f"| recordings | {head} |", "|---" * (len(names) + 1) + "|"]
+    rows = []
     whole = [chosen_records(folder, None) for folder in tests]
     for name in DISTURBANCES:
         found = scores([judges.judge(chosen, rows_of(chosen, name)) for chosen in whole])
         for folder in tests:
             write_line(folder, {"disturbed": name, "train": str(train), "with": list(map(str, tests)), "scores": found})
-        cells = [f"{faults}, {race}, {alarms}" for _, faults, race, alarms in found]
-        lines.append(f"| {' | '.join([name, *cells])} |")
-        print(lines[-1], flush=True)
-    lines += ["", f"Learned from {len(np.unique(training.rows.record))} simulated records."]
-    write_marked(PAGE, "disturbed", __file__, "\n".join(lines))
+        rows.append([name, *(f"{faults}, {race}, {alarms}" for _, faults, race, alarms in found)])
+        print(*rows[-1], sep=" | ", flush=True)
+    table = markdown_table(["recordings", *(f"{name}: faults, race, false alarms" for name in names)], rows)
+    learned = f"Learned from {len(np.unique(training.rows.record))} simulated records."
+    write_marked(PAGE, "disturbed", __file__, f"{table}\n\n{learned}")
 
 
 def command_line() -> argparse.Namespace:

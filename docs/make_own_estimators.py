@@ -10,6 +10,7 @@ from typing import Any
 
 from marked_tables import write_marked
 
+from datagen.files.text_tables import markdown_table
 from labels.spall_size.situation import Situation
 from labels.spall_size.size_estimate import SizeEstimate, SizeOutcome
 
@@ -47,19 +48,17 @@ OF_ESTIMATE = {
 
 def tables() -> dict[str, str]:
     """Text of each table of the page, by the name in its marks; KeyError for a field without a meaning above."""
-    outcomes = "\n".join(f"| `SizeOutcome.{outcome.name}` | {outcome.value} |" for outcome in SizeOutcome)
+    outcomes = [[f"`SizeOutcome.{outcome.name}`", outcome.value] for outcome in SizeOutcome]
     return {
         "situation": _table(Situation, OF_SITUATION),
         "size estimate": _table(SizeEstimate, OF_ESTIMATE),
-        "size outcomes": f"| outcome | meaning |\n|---|---|\n{outcomes}",
+        "size outcomes": markdown_table(["outcome", "meaning"], outcomes),
     }
 
 
 def _table(kind: Any, meanings: Mapping[str, str]) -> str:
-    rows = [
-        f"| `{field.name}` | `{_type(field)}` | {_default(field)} | {meanings[field.name]} |" for field in fields(kind)
-    ]
-    return "\n".join(["| field | type | if left out | meaning |", "|---|---|---|---|", *rows])
+    rows = [[f"`{field.name}`", f"`{_type(field)}`", _default(field), meanings[field.name]] for field in fields(kind)]
+    return markdown_table(["field", "type", "if left out", "meaning"], rows)
 
 
 def _type(field: Any) -> str:

@@ -13,6 +13,7 @@ from pydantic.fields import FieldInfo
 
 from datagen.cards.toml_text import toml_text
 from datagen.distributions.distribution import Distribution
+from datagen.files.text_tables import markdown_table
 from datagen.recipes.recipe import Recipe
 from datagen.recipes.recipe_schema import recipe_schema
 from datagen.settings.docstrings import setting_docstrings
@@ -64,17 +65,10 @@ def _fields(table: type[BaseModel]) -> dict[str, FieldInfo]:
 def _section(table: type[BaseModel], paths: list[str]) -> str:
     stated = {name: field for name, field in _fields(table).items() if name in table.__annotations__}
     meanings = setting_docstrings(table)
-    rows = [
-        f"| `{name}` | {_kind(table, name)} | {_default(field)} | {_text(meanings[name])} |"
-        for name, field in stated.items()
-    ]
+    rows = [[f"`{name}`", _kind(table, name), _default(field), meanings[name]] for name, field in stated.items()]
     said = " ".join((table.__doc__ or "").split())
-    heading = "\n".join(["", f"## {', '.join(paths)}", "", said, "", "| key | takes | default | meaning |"])
-    return "\n".join([heading, "|---|---|---|---|", *rows, ""])
-
-
-def _text(meaning: str) -> str:
-    return " ".join(meaning.split()).replace("|", "\\|")
+    keys = markdown_table(["key", "takes", "default", "meaning"], rows)
+    return "\n".join(["", f"## {', '.join(paths)}", "", said, "", keys, ""])
 
 
 def _default(field: FieldInfo) -> str:

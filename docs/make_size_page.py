@@ -15,6 +15,7 @@ from typing import Any
 
 from marked_tables import write_marked
 
+from datagen.files.text_tables import markdown_table
 from datagen.sizing.record_errors import NOISE_LEVELS, RULES, noise_name
 
 PAGE = Path(__file__).with_name("size.md")
@@ -35,7 +36,7 @@ def cell(figure: dict[str, Any] | None) -> str:
     return f"{100 * figure['value']:.1f} ({100 * figure['low']:.1f}–{100 * figure['high']:.1f})"
 
 
-def by_noise(known: dict[str, Any], blind: dict[str, Any]) -> list[str]:
+def by_noise(known: dict[str, Any], blind: dict[str, Any]) -> str:
     """Errors by noise, load known and blind, beside the rules."""
     given, blindly = figures(known), figures(blind)
     rows = [
@@ -46,16 +47,14 @@ def by_noise(known: dict[str, Any], blind: dict[str, Any]) -> list[str]:
         ("no estimate, load given", given, "no estimate"),
         ("no estimate, blind", blindly, "no estimate"),
     ]
-    lines = [f"| | {' | '.join(LEVELS)} |", "|---|" + "---|" * len(LEVELS)]
-    for title, source, name in rows:
-        lines.append(f"| {title} | " + " | ".join(cell(source.get(f"{name}, {level}")) for level in LEVELS) + " |")
-    return lines
+    cells = [[title, *(cell(source.get(f"{name}, {level}")) for level in LEVELS)] for title, source, name in rows]
+    return markdown_table(["figure", *LEVELS], cells)
 
 
-def targets(summaries: list[dict[str, Any]]) -> list[str]:
+def targets(summaries: list[dict[str, Any]]) -> str:
     """Every target with its figures: test split with load and blind, fresh ladder with load and blind."""
-    lines = ["| target | asked | test split | fresh ladder | test split, blind | fresh ladder, blind |",
-             "|---|---|---|---|---|---|"]  # fmt: skip
+    head = ["target", "asked", "test split", "fresh ladder", "test split, blind", "fresh ladder, blind"]
+    rows = []
     test, test_blind, fresh, fresh_blind = (figures(summary) for summary in summaries)
     for name, figure in test.items():
         if figure["target"]:
@@ -64,8 +63,8 @@ def targets(summaries: list[dict[str, Any]]) -> list[str]:
                 for run in (test, fresh)
             ]
             blind = [cell(run[name]) for run in (test_blind, fresh_blind)]
-            lines.append(f"| {name} | {in_per_cent(figure['target'])} | {' | '.join(verdicts)} | {' | '.join(blind)} |")
-    return lines
+            rows.append([name, in_per_cent(figure["target"]), *verdicts, *blind])
+    return markdown_table(head, rows)
 
 
 def in_per_cent(target: str) -> str:
@@ -73,12 +72,9 @@ def in_per_cent(target: str) -> str:
     return re.sub(r"\d+\.?\d*", lambda share: f"{100 * float(share[0]):g}", target)
 
 
-def dependences(known: dict[str, Any]) -> list[str]:
+def dependences(known: dict[str, Any]) -> str:
     """Errors by what they depend on."""
-    lines = [
-        "| | | records | no estimate | lag error, mean (median) | arc error, mean (median) |",
-        "|---|---|---|---|---|---|",
-    ]
+    rows = []
     for name, table in known["by"].items():
         for row in table:
             errors = [
@@ -87,8 +83,9 @@ def dependences(known: dict[str, Any]) -> list[str]:
                 for what in ("lag", "arc")
             ]  # fmt: skip
             silent = f"{100 * row['no_estimate']:.0f}"
-            lines.append(f"| {name} | {row['value']} | {row['records']} | {silent} | {errors[0]} | {errors[1]} |")
-    return lines
+            rows.append([name, row["value"], row["records"], silent, *errors])
+    head = ["by", "range", "records", "no estimate", "lag error, mean (median)", "arc error, mean (median)"]
+    return markdown_table(head, rows)
 
 
 def sentences(known: dict[str, Any]) -> list[str]:
@@ -133,11 +130,11 @@ def main(folders: list[Path]) -> None:
     text = [
         "Errors are |error| / true where a size is given, in per cent; 90 % intervals (bootstrap over bearings).",
         "",
-        *targets(summaries), "",
-        f"Test split: {extent(test)}.", "", *by_noise(test, test_blind), "",
-        f"Fresh ladder: {extent(fresh)}.", "", *by_noise(fresh, fresh_blind), "", *sentences(fresh), "",
+        targets(summaries), "",
+        f"Test split: {extent(test)}.", "", by_noise(test, test_blind), "",
+        f"Fresh ladder: {extent(fresh)}.", "", by_noise(fresh, fresh_blind), "", *sentences(fresh), "",
         "The fresh ladder by what errors depend on, with load and Hertz factor, in per cent:", "",
-        *dependences(fresh),
+        dependences(fresh),
     ]  # fmt: skip
     write_marked(PAGE, "size ladder", __file__, "\n".join(text))
 

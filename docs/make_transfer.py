@@ -16,6 +16,7 @@ from make_draws import ODD, require_different_names
 from marked_tables import write_marked
 from numpy.typing import NDArray
 
+from datagen.files.text_tables import markdown_table
 from labels.classifier.scores import FEWEST_A_SIDE, balanced_accuracy, exact_interval, paired_difference
 from physics.bearing import RACES
 
@@ -67,17 +68,15 @@ def odd_ones(test: dict[str, Any], model: str) -> str:
     return ", ".join(said) or "–"
 
 
-def main_table(report: dict[str, Any]) -> list[str]:
+def main_table(report: dict[str, Any]) -> str:
     """One row a corpus and model."""
-    lines = [
-        "| corpus | model | outer and inner, all records | without odd ones | race alone | AUC | minus rule | "
-        "false alarms | calibration error | rejected | odd records |",
-        "|---|---|---|---|---|---|---|---|---|---|---|",
-    ]
+    head = ["corpus", "model", "outer and inner, all records", "without odd ones", "race alone", "AUC", "minus rule"]
+    head += ["false alarms", "calibration error", "rejected", "odd records"]
+    rows = []
     for test in report["tests"]:
         for name, scores in test["models"].items():
             minus = scores.get("minus_rule", {}).get(FAULTS)
-            cells = (
+            cells = [
                 Path(test["corpus"]).name,
                 name,
                 interval(scores[FAULTS]),
@@ -89,17 +88,17 @@ def main_table(report: dict[str, Any]) -> list[str]:
                 calibration(scores),
                 str(scores["rejected"]),
                 odd_ones(test, name),
-            )
-            lines.append("| " + " | ".join(cells) + " |")
-    return lines
+            ]
+            rows.append(cells)
+    return markdown_table(head, rows)
 
 
-def noise_table(report: dict[str, Any]) -> list[str]:
+def noise_table(report: dict[str, Any]) -> str:
     """Faults found at the alarm, race accuracy and AUC under added white noise, with the difference to the rule."""
     names = (FAULTS, RACE, AUC)
     head = ["corpus", "SNR, dB", "model", "outer and inner, at the alarm", "minus rule", "race", "minus rule"]
     head += ["AUC", "minus rule"]
-    lines = ["| " + " | ".join(head) + " |", "|---" * len(head) + "|"]
+    rows = []
     for test in report["tests"]:
         for noisy in test["noise"]:
             for name, scores in noisy["models"].items():
@@ -107,18 +106,18 @@ def noise_table(report: dict[str, Any]) -> list[str]:
                 cells = [Path(test["corpus"]).name, f"{noisy['snr_db']:g}", name]
                 for score in names:
                     cells += [interval(scores[score]), interval(minus[score]) if minus else ""]
-                lines.append("| " + " | ".join(cells) + " |")
-    return lines if len(lines) > 2 else ["Not run."]
+                rows.append(cells)
+    return markdown_table(head, rows) if rows else "Not run."
 
 
-def draws_table(draws: dict[str, list[dict[str, dict[str, float | None]]]]) -> list[str]:
+def draws_table(draws: dict[str, list[dict[str, dict[str, float | None]]]]) -> str:
     """Mean and range over draws of the training set: faults where there are any, then false alarms."""
-    lines = ["| corpus | model | outer and inner, without odd ones | false alarms |", "|---|---|---|---|"]
-    for corpus, found in draws.items():
-        for model in found[0]:
-            cells = [ranged([draw[model][name] for draw in found]) for name in ("faults", "false_alarms")]
-            lines.append(f"| {corpus} | {model} | " + " | ".join(cells) + " |")
-    return lines
+    rows = [
+        [corpus, model, *(ranged([draw[model][name] for draw in found]) for name in ("faults", "false_alarms"))]
+        for corpus, found in draws.items()
+        for model in found[0]
+    ]
+    return markdown_table(["corpus", "model", "outer and inner, without odd ones", "false alarms"], rows)
 
 
 def ranged(values: list[float | None]) -> str:
@@ -127,32 +126,31 @@ def ranged(values: list[float | None]) -> str:
     return f"{np.mean(known):.3f} ({min(known):.3f} to {max(known):.3f})" if known else "–"
 
 
-def ablation_table(reports: dict[str, dict[str, Any]]) -> list[str]:
+def ablation_table(reports: dict[str, dict[str, Any]]) -> str:
     """Balanced accuracy over outer and inner of each report's models: on each imported corpus without odd records, on
     all of them in noise (race and AUC, mean over corpora), and on simulated machines."""
-    if not reports:
-        return ["Not run."]
     first = next(iter(reports.values()))
     corpora = [Path(test["corpus"]).name for test in first["tests"] if test["imported"] and has_faults(test)]
     head = ["learned from", "model", *corpora, "false alarms", "race in noise", "AUC in noise", "simulated"]
-    lines = ["| " + " | ".join(head) + " |", "|---" * len(head) + "|"]
+    rows = []
     for name, report in reports.items():
         tests = {Path(test["corpus"]).name: test for test in report["tests"]}
         for model in next(iter(tests.values()))["models"]:
             cells = [without_odd(tests[corpus], model) for corpus in corpora]
             cells += [alarms(report, model), in_noise(report, model, RACE)]
             cells += [in_noise(report, model, AUC), simulated(report, model)]
-            lines.append(f"| {name} | {model} | " + " | ".join(cells) + " |")
-    return lines
+            rows.append([name, model, *cells])
+    return markdown_table(head, rows)
 
 
-def left_out_table(reports: dict[str, dict[str, Any]]) -> list[str]:
+def left_out_table(reports: dict[str, dict[str, Any]]) -> str:
     """What is lost against the first report without an ingredient, by all learners together: balanced accuracy over
     outer and inner, paired by record and drawn anew by bearing; and the learners' false alarms."""
     full = next(iter(reports.values()))
     learners = [name for name in full["tests"][0]["models"] if name != "rule"]
-    head = "minus full recipe, on recordings | on simulated machines | false alarms, recordings | simulated"
-    lines = [f"| learned from | {head} |", "|---|---|---|---|---|"]
+    head = ["learned from", "minus full recipe, on recordings", "on simulated machines", "false alarms, recordings"]
+    head += ["simulated"]
+    rows = []
     for name, report in reports.items():
         if report is full:
             continue
@@ -163,8 +161,8 @@ def left_out_table(reports: dict[str, dict[str, Any]]) -> list[str]:
             lost = paired_difference(balanced_accuracy, truth, answer, full_answer, strata=truth, groups=bearing)
             cells.append(f"{lost.value:+.3f} [{lost.low:+.3f}, {lost.high:+.3f}]")
         cells += [learners_alarms(report, learners, imported) for imported in (True, False)]
-        lines.append(f"| {name} | " + " | ".join(cells) + " |")
-    return lines
+        rows.append([name, *cells])
+    return markdown_table(head, rows)
 
 
 def called(
@@ -228,7 +226,7 @@ def main(paths: list[Path]) -> None:
     reports = {path.absolute().parent.name: json.loads(path.read_text()) for path in others}
     first = next(iter(reports.values()))
     learned = f"Learned from {first['training_records']} simulated records; no real one."
-    tables = {"scores": [learned, "", *main_table(first)], "noise": noise_table(first)}
+    tables = {"scores": f"{learned}\n\n{main_table(first)}", "noise": noise_table(first)}
     for path in draws:
         tables["draws"] = draws_table(json.loads(path.read_text()))
     ablations = dict(list(reports.items())[1:])
@@ -238,8 +236,8 @@ def main(paths: list[Path]) -> None:
             tables[name] = ablation_table(found)
     if ablations:
         tables["left out"] = left_out_table(ablations)
-    for name, lines in tables.items():
-        write_marked(PAGE, name, __file__, "\n".join(lines))
+    for name, text in tables.items():
+        write_marked(PAGE, name, __file__, text)
 
 
 def command_line() -> argparse.Namespace:

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
+
+from labels.interval import Interval
 
 
 def bytes_text(count: float) -> str:
@@ -18,6 +21,11 @@ def counted(count: int, what: str, ending: str = "s") -> str:
 def by_value(counts: Mapping[str, int]) -> str:
     """How often each value occurs, as "outer 3, (none) 2", where (none) is an empty text."""
     return ", ".join(f"{value or '(none)'} {count}" for value, count in counts.items())
+
+
+def bracketed(interval: Interval) -> str:
+    """The ends of an interval in brackets, after a space; nothing where it has none."""
+    return f" [{interval.low:.3f}, {interval.high:.3f}]" if math.isfinite(interval.low) else ""
 
 
 def digits(value: float, count: int) -> str:

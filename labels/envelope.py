@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy import fft
 
 from labels.band import Band, components_in
@@ -56,6 +57,11 @@ def band_envelope(signal: Array, rate: float, band: Band) -> Array:
     analytic = np.zeros(signal.size, dtype=np.complex128)
     analytic[inside] = fft.rfft(signal)[inside] * np.where(both_signs, 2.0, 1.0)
     return np.abs(fft.ifft(analytic))
+
+
+def stored_envelope(signal: NDArray[np.float32], rate: float, band: Band) -> NDArray[np.float32]:
+    """The variable `envelope` (T,) of a record whose stored y axis is `signal` (T,): its `band_envelope`, rounded."""
+    return band_envelope(signal.astype(np.float64), rate, band).astype(np.float32)
 
 
 def squared_envelope_spectrum(envelope: Array, rate: float, window: str = "hann") -> tuple[Array, Array]:

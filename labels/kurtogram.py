@@ -11,6 +11,7 @@ from scipy import fft
 
 from labels.band import Band
 from labels.band_tree import band_edges, usable_bandwidth
+from labels.squared_envelope import excess_kurtosis, squared_envelope
 from physics.arrays import Array
 
 STRETCHES = 8
@@ -32,8 +33,6 @@ def most_impulsive_band(signal: Array, rate: float, piece: int) -> Band:
 
 def _kurtosis(inside: np.ndarray) -> float:
     """Median over stretches of the excess kurtosis of the complex signal with these Fourier components."""
-    padded = np.zeros(fft.next_fast_len(max(inside.size, STRETCHES)), dtype=np.complex128)
-    padded[: inside.size] = inside
-    square = np.abs(fft.ifft(padded)) ** 2
+    square = squared_envelope(inside, max(inside.size, STRETCHES))
     stretches = [part for part in np.array_split(square, STRETCHES) if part.any()]
-    return float(np.median([np.mean(part**2) / np.mean(part) ** 2 - 2.0 for part in stretches])) if stretches else -2.0
+    return float(np.median([excess_kurtosis(part) for part in stretches or [square]]))

@@ -4,9 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import TypeVar
 
+from physics.arrays import Array
 from physics.checks import require, require_between, require_count, require_finite, require_one_of, require_positive
 from physics.orders import ball_spin_order, cage_order, inner_pass_order, outer_pass_order
+
+Force = TypeVar("Force", float, Array)
 
 RACES = ("outer", "inner")
 DEFAULT_CONFORMITY = 0.52
@@ -131,6 +135,10 @@ class Bearing:
         """
         require_one_of("race", race, RACES)
         return self.outer_conformity if race == "outer" else self.inner_conformity
+
+    def compression(self, force: Force) -> Force:
+        """Compression (m) of a contact that presses with the `force` (N): (F / K)^(1/n) [P14 Eq. 6]."""
+        return (force / self.load_deflection) ** (1.0 / self.exponent)
 
     @property
     def stribeck_factor(self) -> float:

@@ -6,11 +6,10 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import eig, eigh
 
 from physics.angular_speed import in_hertz
-from physics.arrays import Array, Index
+from physics.arrays import Array, ComplexArray, Index
 from physics.cage import CagePath
 from physics.checks import require
 from physics.operation import Operation
@@ -30,7 +29,7 @@ class Modes:
 
     frequency_hz: Array
     damping_ratio: Array
-    shape: NDArray[np.complex128]
+    shape: ComplexArray
 
 
 def coupled_matrix(rig_matrix: Array, bearing: Array) -> Array:
@@ -72,7 +71,7 @@ def modes(rig: Rig, stiffness: Array, damping: Array) -> Modes:
     return Modes(in_hertz(frequency[order]), ratio[order], shape / largest)
 
 
-def _pair(values: NDArray[np.complex128]) -> tuple[Array, Array, Index]:
+def _pair(values: ComplexArray) -> tuple[Array, Array, Index]:
     """Frequency (rad/s), damping ratio and column of each mode from the eigenvalues of Eq. 30, (12,) [P14 Eq. 31]."""
     rising = np.flatnonzero(values.imag > 0.0)
     real = np.flatnonzero(values.imag == 0.0)

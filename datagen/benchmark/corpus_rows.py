@@ -42,14 +42,14 @@ class CorpusRows:
 
 
 def read_rows(
-    folder: Path, records: NDArray[np.int64], reading: Reading, workers: int = 2, count: Count = ignore
+    folder: Path, records: NDArray[np.int64], reading: Reading, workers: int, count: Count = ignore
 ) -> CorpusRows:
     """Rows of the `records` of a corpus as one table; `count` is called with how many are done."""
     return rows_of_records(read_records(folder, records, reading, workers, count))
 
 
 def read_records(
-    folder: Path, records: NDArray[np.int64], reading: Reading, workers: int = 2, count: Count = ignore
+    folder: Path, records: NDArray[np.int64], reading: Reading, workers: int, count: Count = ignore
 ) -> dict[int, RecordRows]:
     """Rows of each of the `records` of a corpus, made by several processes, each with one waveform in memory; `count`
     is called with how many are done."""

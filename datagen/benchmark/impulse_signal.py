@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.signal import fftconvolve
 
+from datagen.benchmark.log_uniform import log_uniform
 from labels.features.kinematics import Kinematics
 from labels.schema import LOCATIONS
 from physics.angular_speed import RPM_PER_HZ
@@ -74,7 +75,7 @@ def draw_train(seed: int, machine: int, record: int, ingredients: Ingredients) -
     # Without paths of their own all machines ring with the same single resonance.
     paths_from = of_machine("paths") if ingredients.sensor_paths else np.random.default_rng(seed)
     paths = _paths(paths_from, several=ingredients.sensor_paths)
-    floor = _floor((of_machine if ingredients.machine_floor else of_record)("floor"))
+    floor = log_uniform((of_machine if ingredients.machine_floor else of_record)("floor"), 0.03, 6.0)
     size = int(rate * duration)
     signal = floor * of_record("noise").standard_normal(size)
     if ingredients.backgrounds:
@@ -90,7 +91,7 @@ def _bearing(of_machine: np.random.Generator, of_record: np.random.Generator) ->
     most = np.pi / np.arcsin(ratio)
     balls = max(5, int(of_machine.uniform(0.6, 0.95) * most))
     ratio *= np.cos(np.radians(min(abs(of_machine.normal(0.0, 8.0)), 25.0)))
-    speed = np.exp(of_machine.uniform(np.log(500.0), np.log(3600.0))) / RPM_PER_HZ * of_record.uniform(0.75, 1.25)
+    speed = log_uniform(of_machine, 500.0, 3600.0) / RPM_PER_HZ * of_record.uniform(0.75, 1.25)
     return Kinematics(balls, float(ratio), float(ball_spin_order(1.0 / ratio, ratio)), float(speed))
 
 
@@ -99,16 +100,12 @@ def _paths(generator: np.random.Generator, several: bool) -> list[tuple[float, f
     count = int(generator.integers(1, 7)) if several else 1
     return [
         (
-            float(np.exp(generator.uniform(np.log(800.0), np.log(11_000.0)))),
+            log_uniform(generator, 800.0, 11_000.0),
             float(generator.uniform(0.01, 0.08)),
             float(generator.uniform(0.1, 1.0)),
         )
         for _ in range(count)
     ]
-
-
-def _floor(generator: np.random.Generator) -> float:
-    return _level(generator, 0.03, 6.0)
 
 
 def _ringing(paths: list[tuple[float, float, float]], rate: float) -> Array:
@@ -158,7 +155,7 @@ def _heights(
     else:
         depth = of_record.uniform(0.0, 0.6)  # drawn for all, so that what is drawn below is the same either way
         load = 1.0 + (depth if modulated else 0.0) * np.cos(turn)
-    height = np.exp(of_record.uniform(np.log(0.3), np.log(20.0))) * load
+    height = log_uniform(of_record, 0.3, 20.0) * load
     return np.asarray(height * np.exp(0.2 * of_record.standard_normal(turn.size)))
 
 
@@ -171,8 +168,8 @@ def _background(streams: Streams, size: int, rate: float, kinematics: Kinematics
         if frequency < rate / 2.0:
             total += amplitude * np.cos(2.0 * np.pi * frequency * time + of_record.uniform(0.0, 2.0 * np.pi))
     knocks = np.zeros(size)
-    count = int(of_record.poisson(_level(of_machine, 0.3, 30.0) * size / rate))
-    knocks[of_record.integers(0, size, count)] = _level(of_machine, 0.01, 20.0) * np.exp(
+    count = int(of_record.poisson(log_uniform(of_machine, 0.3, 30.0) * size / rate))
+    knocks[of_record.integers(0, size, count)] = log_uniform(of_machine, 0.01, 20.0) * np.exp(
         0.5 * of_record.standard_normal(count)
     )
     return total + fftconvolve(knocks, _ringing(_paths(of_machine, several=True), rate))[:size]
@@ -180,12 +177,8 @@ def _background(streams: Streams, size: int, rate: float, kinematics: Kinematics
 
 def tones(of_machine: np.random.Generator, shaft_hz: float) -> list[tuple[float, float]]:
     """Frequency (Hz) and amplitude of ten tones of the shaft, four of the mains and five of the gear mesh."""
-    found = [(order * shaft_hz, _level(of_machine, 0.01, 3.0) / order) for order in range(1, 11)]
+    found = [(order * shaft_hz, log_uniform(of_machine, 0.01, 3.0) / order) for order in range(1, 11)]
     mains = float(of_machine.choice([50.0, 60.0]))
-    found += [(order * mains, _level(of_machine, 0.003, 0.6) / order) for order in range(1, 5)]
-    teeth, mesh = int(of_machine.integers(17, 42)), _level(of_machine, 0.001, 5.0)
+    found += [(order * mains, log_uniform(of_machine, 0.003, 0.6) / order) for order in range(1, 5)]
+    teeth, mesh = int(of_machine.integers(17, 42)), log_uniform(of_machine, 0.001, 5.0)
     return found + [((teeth + side) * shaft_hz, mesh * 0.3 ** abs(side)) for side in (-2, -1, 0, 1, 2)]
-
-
-def _level(generator: np.random.Generator, low: float, high: float) -> float:
-    return float(np.exp(generator.uniform(np.log(low), np.log(high))))

@@ -5,11 +5,12 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
+from datagen.files.number_texts import number
 from datagen.judging.stated_speed import SPEED_ERROR
 
 FEATURES, WINDOWS = "features", "windows"
 # What refusals call the options of `classify`.
-SAVE, TRAIN, TEST_ON = "--save", "--train", "--test"
+SAVE, TRAIN, TEST_ON, FIRST = "--save", "--train", "--test", "--first"
 # What `--train` calls the rows of features that come with the program.
 TRANSFER_ROWS = "transfer-rows"
 
@@ -47,8 +48,8 @@ class Scoring:
 
     @property
     def levels(self) -> tuple[float, ...]:
-        """Signal-to-noise ratios, dB, of the noise to add; ValueError for a text that holds anything but numbers."""
-        return tuple(float(part) for part in self.noise_db.split(",") if part.strip())
+        """Signal-to-noise ratios, dB, of the noise to add; NaN for what is no number."""
+        return tuple(number(part) for part in self.noise_db.split(",") if part.strip())
 
 
 @dataclass(frozen=True)

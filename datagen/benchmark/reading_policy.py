@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from datagen.benchmark.log_uniform import log_uniform
 from labels.band_tree import COMMON_BANDWIDTH
 from labels.noise import with_white_noise
 from physics.arrays import Array
@@ -67,7 +68,7 @@ class Reading:
         if copy != STRETCHED_COPY:
             return slice(None)
         shortest = min(SHORTEST_COPY * rate, samples)
-        size = int(np.exp(stream.uniform(np.log(shortest), np.log(samples))))
+        size = int(log_uniform(stream, shortest, samples))
         start = int(stream.integers(0, samples - size, endpoint=True))
         return slice(start, start + size)
 
@@ -76,7 +77,7 @@ class Reading:
         top = min(self.bandwidth, rate / 2.0)
         if self.lowest_bandwidth is None or self.lowest_bandwidth >= top:
             return top
-        return float(np.exp(stream.uniform(np.log(self.lowest_bandwidth), np.log(top))))
+        return log_uniform(stream, self.lowest_bandwidth, top)
 
     def speed_factor(self, stream: np.random.Generator) -> float:
         """The factor, drawn around 1, by which the shaft speed given for one piece is wrong."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import os
 from dataclasses import fields, replace
 from pathlib import Path
 from typing import Any
@@ -21,7 +20,7 @@ from datagen.corpus import Corpus
 from datagen.corpus_files.manifest import manifest_path, no_corpus
 from datagen.errors import BadInput
 from datagen.files.places import require_file
-from datagen.judging.scored_runs import no_log
+from datagen.judging.scored_runs import require_log
 from datagen.judging.stated_speed import SPEED_ERROR
 from datagen.judging.user_code import FIELD, load_user_code
 from labels.classifier.learners import LEARNERS
@@ -95,11 +94,7 @@ def _require_scoring(scoring: Scoring) -> None:
     if not 0.0 <= scoring.reject <= 1.0:
         raise BadInput(field="--reject", value=scoring.reject, allowed="0 to 1")
     allowed = f"numbers from {LEAST_NOISE_DB:g} to {MOST_NOISE_DB:g} dB with commas between them"
-    try:
-        possible = all(LEAST_NOISE_DB <= level <= MOST_NOISE_DB for level in scoring.levels)
-    except ValueError:
-        possible = False
-    if not possible:
+    if not all(LEAST_NOISE_DB <= level <= MOST_NOISE_DB for level in scoring.levels):
         raise BadInput(field="--noise-db", value=scoring.noise_db, allowed=allowed)
     if not scoring.levels and scoring.noise_draws != Scoring().noise_draws:
         raise BadInput(
@@ -148,8 +143,8 @@ def _require_folders(train: Path, tests: tuple[Path, ...], windows: bool) -> Non
         corpus = _corpus(folder, TEST_ON, "the folder of a corpus, simulated or imported")
         if corpus.labels.empty:
             raise BadInput("this corpus has no records", file=str(folder), field=TEST_ON)
-        if corpus.manifest.imported and not os.access(folder, os.W_OK):
-            raise no_log(folder)
+        if corpus.manifest.imported:
+            require_log(folder)
 
 
 def _corpus(folder: Path, option: str, allowed: str) -> Corpus:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from datagen.benchmark.answers import class_probability, estimator_name
 from datagen.benchmark.corpus_rows import read_rows
-from datagen.benchmark.options import TRAIN, Learning
+from datagen.benchmark.options import FIRST, TRAIN, Learning
 from datagen.benchmark.reading_policy import Reading
 from datagen.benchmark.rows import Rows
 from datagen.corpus import Corpus
@@ -109,8 +109,11 @@ def training_records(folder: Path, also_tested: bool, first: int | None = None) 
         chosen = chosen[chosen["split"] != TEST]
     chosen = chosen.iloc[:first]
     if chosen["bearing_id"].nunique() < FEWEST_BEARINGS:
-        allowed = f"a corpus with {FEWEST_BEARINGS} virtual bearings or more outside its split test"
-        raise BadInput("too few virtual bearings to learn from", file=str(folder), field=TRAIN, allowed=allowed)
+        problem, enough = "too few virtual bearings to learn from", f"{FEWEST_BEARINGS} virtual bearings or more"
+        if first is not None and labels["bearing_id"].nunique() >= FEWEST_BEARINGS:
+            raise BadInput(problem, file=str(folder), field=FIRST, value=first, allowed=f"records of {enough}")
+        outside = f" outside its split {TEST}" if also_tested else ""
+        raise BadInput(problem, file=str(folder), field=TRAIN, allowed=f"a corpus with {enough}{outside}")
     return chosen
 
 

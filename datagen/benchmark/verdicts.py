@@ -15,11 +15,11 @@ from datagen.benchmark.record_rows import RecordFacts
 from datagen.benchmark.rows import Rows
 from datagen.benchmark.training import Model
 from datagen.judging.truth import true_classes, true_locations
-from labels.classifier.classes import called, location_probability
+from labels.classifier.classes import CLASSES, called, location_probability
 from labels.classifier.log_odds import logit, probability_of
 from labels.classifier.rule import Rule, line_heights
 from labels.classifier.votes import averaged, joined
-from labels.schema import LOCATIONS
+from labels.schema import HEALTHY, LOCATIONS
 from physics.arrays import Array
 
 REJECTED = "rejected"
@@ -43,7 +43,7 @@ class Verdicts:
     race: NDArray[np.str_]
     score: Array
     alarm: Array
-    probability: Array = field(default_factory=lambda: np.empty((0, 5)))
+    probability: Array = field(default_factory=lambda: np.empty((0, len(CLASSES))))
 
 
 @dataclass(frozen=True)
@@ -102,7 +102,7 @@ def _of_rule(rule: Rule, rows: Rows, records: NDArray[np.int64], reasons: NDArra
     missing = np.isnan(score)
     rejected = missing | (reasons != "")
     location = np.where(rejected, REJECTED, rule.locations(heights))
-    condition = np.where(location == "none", "healthy", np.where(rejected, REJECTED, "line"))
+    condition = np.where(location == "none", HEALTHY, np.where(rejected, REJECTED, "line"))
     race = np.where(missing, REJECTED, rule.races(heights))
     return Verdicts(RULE, location, condition, race, score, np.where(missing, np.nan, rule.threshold))
 
@@ -146,7 +146,7 @@ def vote(model: Model, rows: Rows, records: NDArray[np.int64]) -> Vote:
 
     A record without rows is called healthy, with NaN for probabilities and alarm.
     """
-    of_rows = model.probability(rows.table) if len(rows) else np.empty((0, 5))
+    of_rows = model.probability(rows.table) if len(rows) else np.empty((0, len(CLASSES)))
     alarms = logit(model.alarms(rows))
     margins = logit(1.0 - of_rows[:, 0]) - alarms
     shares = model.shares(margins, rows)

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from tempfile import TemporaryFile
-from typing import IO
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,17 +37,22 @@ def read_windows(folder: Path, records: NDArray[np.int64], rate: float, count: C
     """
     owners: list[int] = []
     axes: list[int] = []
-    with Corpus(folder) as corpus, _temporary_file(records.size) as file:
+    with ExitStack() as opened:
+        corpus = opened.enter_context(Corpus(folder))
+        with _room_for_windows(records.size):
+            file = opened.enter_context(TemporaryFile())
         rates = corpus.labels.set_index("record")["rate_hz"]
         for done, record in enumerate(records.tolist(), start=1):
             for axis, signal in enumerate(np.asarray(corpus.waveform(record), dtype=np.float64).T):
                 if not is_dead(signal):
                     found = cut(resampled(signal, float(rates[record]), rate))
-                    file.write(np.asarray(found, dtype=np.float32).tobytes())
+                    with _room_for_windows(records.size):
+                        file.write(np.asarray(found, dtype=np.float32).tobytes())
                     owners += [record] * len(found)
                     axes += [axis] * len(found)
             count(done, records.size)
-        file.flush()
+        with _room_for_windows(records.size):
+            file.flush()
         # The mapping keeps the file alive after it is closed, and an empty one cannot be mapped.
         shape = (len(owners), WINDOW_SAMPLES)
         table = np.memmap(file, np.float32, "r", shape=shape) if owners else np.empty(shape, np.float32)
@@ -57,12 +61,11 @@ def read_windows(folder: Path, records: NDArray[np.int64], rate: float, count: C
 
 
 @contextmanager
-def _temporary_file(records: int) -> Iterator[IO[bytes]]:
-    """A temporary file for the windows of so many records; BadInput that names its folder where it cannot be written,
-    as corpora that cannot be read are told by their own."""
+def _room_for_windows(records: int) -> Iterator[None]:
+    """BadInput that names the folder of temporary files, for the windows of so many records, in place of an OSError of
+    the block, which does nothing but write there."""
     try:
-        with TemporaryFile() as file:
-            yield file
+        yield
     except OSError as problem:
         needed = records * MOST_WINDOWS * WINDOW_SAMPLES * np.dtype(np.float32).itemsize
         raise no_temporary_file(problem, needed, "a folder with room for all windows") from None

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,10 +14,11 @@ from datagen.cards.vocabulary_table import vocabulary_table
 from datagen.corpus import Corpus
 from datagen.corpus_files.manifest import read_manifest
 from datagen.errors import BadInput
-from datagen.files.atomic import write_results
+from datagen.files.atomic import is_temporary, write_results
 from datagen.files.places import OUT, from_home, require_folder
 
 CARD, METADATA, VOCABULARY = "card.md", "croissant.json", "labels_bearing_datasets.csv"
+TEXTS = {CARD, METADATA, VOCABULARY}
 OF_A_RECORD = re.compile(r"record_\d{6,}\.png")
 MOST_EXAMPLES = 6
 
@@ -47,10 +47,8 @@ def write_report(folder: str | Path, out: str | Path | None = None) -> Report:
     if not facts.info.records:
         raise BadInput("this corpus holds no records yet", file=str(folder))
     contents = _contents(folder, facts, out)
-    write_results(out, contents)
-    for picture in filter(OF_A_RECORD.fullmatch, os.listdir(out)):
-        if picture not in contents:  # of an earlier report
-            (out / picture).unlink()
+    earlier = [path.name for path in out.iterdir() if _is_of_a_report(path)] if out.is_dir() else []
+    write_results(out, contents, gone=[name for name in earlier if name not in contents])
     return Report(str(out), tuple(contents), facts, unstated(facts))
 
 
@@ -78,7 +76,15 @@ def _shown(kinds: tuple[Kind, ...]) -> tuple[Kind, ...]:
 
 
 def _check_folder(out: Path) -> None:
+    """Raise BadInput unless `out` is new, empty, or the folder of a report, be it an unfinished one."""
     require_folder(out)
-    held = set(os.listdir(out)) if out.is_dir() else set()
-    if held and not held >= {CARD, METADATA, VOCABULARY}:
-        raise BadInput("this folder holds things other than a report", file=str(out), field=OUT)
+    held = sorted(out.iterdir()) if out.is_dir() else []
+    foreign = [path.name for path in held if not _is_of_a_report(path)]
+    if foreign and not {path.name for path in held} >= TEXTS:
+        problem = f"this folder holds things other than a report, such as {foreign[0]}"
+        raise BadInput(problem, file=str(out), field=OUT)
+
+
+def _is_of_a_report(path: Path) -> bool:
+    """True for a file that this module may have written, whole or not."""
+    return path.name in {*TEXTS, OVERVIEW} or bool(OF_A_RECORD.fullmatch(path.name)) or is_temporary(path)

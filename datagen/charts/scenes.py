@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import math
 import re
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from datagen.errors import BadInput
+from datagen.files.number_texts import number
 from datagen.recipes.operation_settings import MOST_SLIP_DEVIATION
 from datagen.recipes.recipe_files import shipped_recipes
 from physics.angular_speed import in_rpm
@@ -83,8 +83,8 @@ def _record_of(source: str, record: int) -> Subject:
 
 def _named(source: str) -> Subject:
     form = FORM.fullmatch(source)
-    times = _number("1" if form is None else form["times"] or "1")
-    slip = _number("nan" if form is None else form["slip"] or "0")
+    times = number("1" if form is None else form["times"] or "1")
+    slip = number("nan" if form is None else form["slip"] or "0")
     if form is None or not (SLOWEST <= times <= FASTEST and 0.0 <= slip <= MOST_SLIP) or source[-1] in "@~":
         name = re.split("[@~]", source)[0]
         speeds, slips = f"{name}@{SLOWEST:g} to {name}@{FASTEST:g}", f"{name}~0 to {name}~{MOST_SLIP:g}"
@@ -99,10 +99,3 @@ def _named(source: str) -> Subject:
         name, title = f"{name}_slip{slip:g}", f"{title}, {slip:g} % slip"
         scene = slipping(scene, 0.01 * slip, SLIP_SEED)
     return Subject(name, title, scene, RATE)
-
-
-def _number(text: str) -> float:
-    try:
-        return float(text)
-    except ValueError:
-        return math.nan

@@ -13,7 +13,7 @@ from datagen.benchmark.options import SAVE, TEST_ON, TRAIN, TRANSFER_ROWS, Learn
 from datagen.commands.grouped import grouped
 from datagen.commands.program import JsonFile, command, show_tables, write_json
 from datagen.commands.progress_display import show_steps
-from datagen.counts import counted
+from datagen.counts import bracketed, counted
 from datagen.files.places import require_results_folder
 from datagen.judging.stated_speed import SPEED_ERROR
 from datagen.processes import MOST_WORKERS
@@ -203,14 +203,14 @@ def print_mended(found: CorpusScores) -> None:
 def score_line(scores: Scores) -> str:
     """The scores of one model in one line."""
     parts = [f"{word} {_interval(found)}" for word, found in scores.headline.items()]
-    share = _bracket(scores.false_alarm_share)
+    share = bracketed(scores.false_alarm_share)
     counts = (
         f"false alarms {scores.false_alarms}/{scores.healthy}{share}{_bearings(scores)}",
         f"rejected {scores.rejected}",
     )
     if scores.calibration:
         error = scores.calibration.calibration_error
-        parts.append(f"calibration error {error.value:.3f}{_bracket(error)}")
+        parts.append(f"calibration error {error.value:.3f}{bracketed(error)}")
     return ", ".join([*parts, *counts])
 
 
@@ -233,9 +233,4 @@ def _bearings(scores: Scores) -> str:
 def _interval(found: Interval) -> str:
     if not math.isfinite(found.value):
         return "–"
-    return f"{found.value:.3f}{_bracket(found)}"
-
-
-def _bracket(found: Interval) -> str:
-    """The interval of a score in brackets; nothing where it has none."""
-    return f" [{found.low:.3f}, {found.high:.3f}]" if math.isfinite(found.low) else ""
+    return f"{found.value:.3f}{bracketed(found)}"

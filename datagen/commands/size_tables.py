@@ -6,7 +6,7 @@ import math
 
 from rich.table import Table
 
-from datagen.counts import counted
+from datagen.counts import bracketed, counted
 from datagen.sizing.known_sizes import KnownSize
 from datagen.sizing.scored_record import ScoredRecord, Truth
 from datagen.sizing.size_summary import Figure, SizeSummary, StatedSizes
@@ -100,8 +100,7 @@ def stated_sentence(stated: StatedSizes) -> str:
         parts.append(f"of {stated.records} records of a stated extent {stated.answered} were given a size")
     if stated.answered:
         error = stated.arc_error
-        interval = f" [{error.low:.3f}, {error.high:.3f}]" if math.isfinite(error.low) else ""
-        parts.append(f"mean error of their arc {error.value:.3f}{interval} of it")
+        parts.append(f"mean error of their arc {error.value:.3f}{bracketed(error)} of it")
         parts.append(f"{stated.answered_on_the_stated_race} on the stated race")
     if stated.healthy:
         parts.append(f"{stated.healthy_answered} of {stated.healthy} stated healthy were given a size")

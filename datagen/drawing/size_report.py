@@ -19,7 +19,7 @@ from datagen.drawing.style import (
     roomy,
     with_panels,
 )
-from datagen.sizing.record_errors import RULES, extent_error, noise_level, noise_levels, noise_name
+from datagen.sizing.record_errors import RULES, extent_error, mean_of, noise_level, noise_levels, noise_name
 from datagen.sizing.scored_record import ScoredRecord
 
 if TYPE_CHECKING:
@@ -107,7 +107,7 @@ def _rules(axes: Axes, answered: list[ScoredRecord]) -> None:
     methods = {"this estimator": extent_error} | RULES
     width = 0.8 / len(methods)
     for k, ((name, error), colour) in enumerate(zip(methods.items(), (BLUE, *RULE_COLOURS), strict=True)):
-        means = [_mean([error(record) for record in answered if noise_level(record) == level]) for level in levels]
+        means = [mean_of([error(record) for record in answered if noise_level(record) == level]) for level in levels]
         axes.bar(place + (k - (len(methods) - 1) / 2) * width, means, width, color=colour, label=name)
     axes.set_xticks(place, [noise_name(level) for level in levels])
     axes.set(title="Arc against simple rules, by noise, dB", ylabel="mean |error| / true")
@@ -118,11 +118,6 @@ def _rules(axes: Axes, answered: list[ScoredRecord]) -> None:
         _say_empty(axes)
     axes.legend(ncols=2, fontsize=6.5, loc="upper left")
     faint_grid(axes)
-
-
-def _mean(values: list[float]) -> float:
-    finite = [value for value in values if math.isfinite(value)]
-    return float(np.mean(finite)) if finite else math.nan
 
 
 def _say_empty(axes: Axes) -> None:

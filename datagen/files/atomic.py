@@ -5,7 +5,7 @@ from __future__ import annotations
 import errno
 import os
 import stat
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import BinaryIO
@@ -62,8 +62,9 @@ def write_file(path: Path, data: bytes, option: str) -> None:
         raise BadInput(f"cannot write this file: {problem.strerror}", file=str(path), field=option) from None
 
 
-def write_results(folder: Path, files: Mapping[str, bytes]) -> None:
-    """Make `folder`, which the user has named with `--out`, and put the named `files` there; raises BadInput.
+def write_results(folder: Path, files: Mapping[str, bytes], gone: Iterable[str] = ()) -> None:
+    """Make `folder`, which the user has named with `--out`, put the named `files` there, and delete those called as in
+    `gone`, of an earlier run; raises BadInput.
 
     Where the first of them cannot be written, folders that were not there before are not left there either.
     """
@@ -72,6 +73,8 @@ def write_results(folder: Path, files: Mapping[str, bytes]) -> None:
             folder.mkdir(parents=True, exist_ok=True)
             for name, content in files.items():
                 write_atomically(folder / name, content)
+            for name in gone:
+                (folder / name).unlink(missing_ok=True)
     except OSError as problem:
         raise BadInput(f"cannot write here: {problem.strerror}", file=str(folder), field=OUT) from None
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from datagen.corpus_files.format import LABEL_VARIABLES, is_imported
-from labels.schema import LABEL
+from labels.schema import HEALTHY, LABEL
 from labels.variables import VARIABLES, Variable
 from physics.spall import EXTENDED_FROM
 
@@ -78,7 +78,7 @@ def _wrong_times(dataset: xarray.Dataset) -> Iterator[str]:
 
 
 def _wrong_labels(dataset: xarray.Dataset) -> Iterator[str]:
-    healthy = dataset["condition"].values == "healthy"
+    healthy = dataset["condition"].values == HEALTHY
     extended = dataset["condition"].values == "extended"
     relative = dataset["extent_spacing"].values
     low, high = dataset["envelope_band"].values.T

@@ -29,12 +29,23 @@ def write_line(folder: Path, said: dict[str, Any]) -> None:
         with log_path(folder).open("a", encoding="utf-8") as file:
             file.write(json.dumps(plain(line), default=str, allow_nan=False) + "\n")
     except OSError as problem:
-        raise no_log(folder, f": {problem.strerror}") from None
+        raise _no_log(folder, problem) from None
 
 
-def no_log(folder: Path, reason: str = "") -> BadInput:
-    """The error if the log of a corpus cannot be written, as in a read-only folder."""
-    problem = f"runs on recordings are logged here, and it cannot be written{reason}"
+def require_log(folder: Path) -> None:
+    """Raise BadInput unless a line can be appended to the log of a corpus, which is left as it is."""
+    path = log_path(folder)
+    is_new = not path.exists()
+    try:
+        path.open("a").close()
+        if is_new:
+            path.unlink()
+    except OSError as problem:
+        raise _no_log(folder, problem) from None
+
+
+def _no_log(folder: Path, reason: OSError) -> BadInput:
+    problem = f"runs on recordings are logged here, and it cannot be written: {reason.strerror}"
     return BadInput(
         problem, file=str(log_path(folder)), allowed="a corpus that can be written to, such as a copy of it"
     )

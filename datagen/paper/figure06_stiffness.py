@@ -60,7 +60,7 @@ def stiffness(*spalls: Spall) -> Stiffness:
     bearing = of.rig.bearing
     cage = np.radians(SHOWN) * np.arange(STEPS) / STEPS
     load = equilibrium(of, cage / of.cage.mean_speed).ball_load
-    compression = (load / bearing.load_deflection) ** (1.0 / bearing.exponent)
+    compression = bearing.compression(load)
     spring = bearing.exponent * bearing.load_deflection * compression ** (bearing.exponent - 1.0)
     angle = ball_angles(bearing, cage)
     c, s = np.cos(angle), np.sin(angle)

@@ -80,6 +80,6 @@ def heading(figure: Figure, title: str, subtitle: str) -> None:
     figure.text(0.012, 1.0 - 0.36 / height, subtitle, fontsize=8.5, color="#666666", va="top")
 
 
-def spread(values: Array, digits: int = 1) -> str:
+def spread(values: Array) -> str:
     """ "median of N; lowest to highest" for a table's comment."""
-    return f"median of {values.size}; {np.min(values):.{digits}f} to {np.max(values):.{digits}f}"
+    return f"median of {values.size}; {np.min(values):.1f} to {np.max(values):.1f}"

@@ -14,6 +14,7 @@ from datagen.distributions.kinds import Distribution, Fixed
 from datagen.recipes.profile_table import ProfileTable
 from datagen.recipes.quantities import EXTENTS_MM, Degrees, Share
 from datagen.settings.table import Between, OneOf, Table, Whole, at_most_one, possible_words, refuse
+from labels.schema import HEALTHY
 from physics.bearing import RACES
 from physics.spall import ARC_ROUNDING, EXTENDED_FROM
 
@@ -80,7 +81,7 @@ class DefectSettings(SpallSettings):
     then race, then profile; the later replaces the earlier.
     """
 
-    condition: Annotated[Distribution, OneOf(("healthy", "line", "extended"))]
+    condition: Annotated[Distribution, OneOf((HEALTHY, "line", "extended"))]
     """healthy, line (shorter than the ball spacing) or extended (at least the ball spacing)."""
     race: Annotated[Distribution, OneOf(RACES)] = Fixed("outer")
     """The defective race."""
@@ -106,7 +107,7 @@ class DefectSettings(SpallSettings):
     @cached_property
     def refined(self) -> dict[Combination, SpallSettings]:
         """Settings of each combination of condition, race and profile that can be drawn (none for healthy)."""
-        conditions = [word for word in possible_words(self.condition) if word != "healthy"]
+        conditions = [word for word in possible_words(self.condition) if word != HEALTHY]
         combinations = product(conditions, possible_words(self.race), possible_words(self.profile))
         return {combination: self._refine(combination) for combination in combinations}
 
@@ -199,11 +200,11 @@ def _check_size(spall: SpallSettings, where: str, condition: str, place: PlaceOf
     """A line spall is shorter than the ball spacing, an extended one is not."""
     if spall.extent_spacing is not None:
         shortest, longest = min(spall.extent_spacing.stated()), max(spall.extent_spacing.stated())
-        if condition == "line" and shortest >= 1.0:
-            raise refuse(f"{where}: {shortest:g} is no line spall", place("extent_spacing"), "below 1 ball spacing")
-        if condition == "extended" and longest < 1.0:
+        if condition == "line" and shortest >= EXTENDED_FROM:
+            raise refuse(f"{where}: {shortest:.9g} is no line spall", place("extent_spacing"), "below 1 ball spacing")
+        if condition == "extended" and longest < EXTENDED_FROM:
             raise refuse(
-                f"{where}: {longest:g} is no extended spall", place("extent_spacing"), "at least 1 ball spacing"
+                f"{where}: {longest:.9g} is no extended spall", place("extent_spacing"), "at least 1 ball spacing"
             )
 
 

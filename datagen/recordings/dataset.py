@@ -6,10 +6,11 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from datagen.corpus_files.format import COMPONENT_DIMENSIONS, IMPORTED, from_columns, global_attributes
 from datagen.recordings.recorded import Recorded
-from labels.envelope import band_envelope
+from labels.envelope import stored_envelope
 from labels.schema import LABELS
 
 if TYPE_CHECKING:
@@ -45,6 +46,6 @@ def imported_dataset(indices: Sequence[int], records: Sequence[Recorded], attrib
     return from_columns(columns | {"record": indices}, global_attributes(first.labels) | ATTRIBUTES | attributes)
 
 
-def _envelope(record: Recorded) -> np.ndarray:
-    along = record.acceleration[:, record.axes.index("y")].astype(np.float64)
-    return band_envelope(along, record.rate, record.labels["envelope_band"]).astype(np.float32)
+def _envelope(record: Recorded) -> NDArray[np.float32]:
+    along = record.acceleration[:, record.axes.index("y")]
+    return stored_envelope(along, record.rate, record.labels["envelope_band"])

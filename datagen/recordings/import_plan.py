@@ -14,7 +14,8 @@ from datagen.recordings.recorded import Key, Recorded, read_recording
 from datagen.recordings.spec import Spec
 from labels.schema import UNKNOWN
 
-SHARD_BYTES = 64e6
+# Bytes of signals that a shard holds at most, unless one recording alone has more.
+MOST_SHARD_BYTES = 64e6
 
 
 @dataclass(frozen=True)
@@ -107,7 +108,7 @@ class ImportPlan:
         held: Counter[Key] = Counter()  # bytes of the growing shard of a kind
         for planned in self.records:
             key = planned.key
-            if key not in growing or held[key] + planned.bytes > SHARD_BYTES:
+            if key not in growing or held[key] + planned.bytes > MOST_SHARD_BYTES:
                 growing[key], held[key] = [], 0
                 shards.append(growing[key])
             growing[key].append(planned)

@@ -150,7 +150,7 @@ class PartFiles:
         except (ValueError, NotImplementedError, IndexError):
             raise BadInput(field="files", file=self.place, value=pattern, allowed='as in "folder/*.mat"') from None
         fitting = [path for path in found if (path.is_file() or _leads_nowhere(path)) and not hidden(path, pattern)]
-        if not fitting and self.recording.absent_files != "skip":
+        if not fitting and self._refuses:
             raise self._unmatched(pattern, found)
         return fitting
 

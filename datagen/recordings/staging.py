@@ -15,6 +15,9 @@ from datagen.errors import BadInput
 from datagen.files.atomic import TEMPORARY_SUFFIX, leaving_no_folders, sync_folder
 from datagen.files.places import OUT
 
+# Of a folder's name that the one beside it is called by.
+NAME_BYTES = 64
+
 
 @contextmanager
 def staged(folder: Path) -> Iterator[Path]:
@@ -24,7 +27,9 @@ def staged(folder: Path) -> Iterator[Path]:
     is: it may be a recording that cannot be read.
     """
     folder = folder.resolve()
-    beginning = f".{folder.name}.{socket.gethostname()}."
+    # Short enough where the name of the folder is.
+    name = os.fsencode(folder.name)[:NAME_BYTES].decode(errors="ignore")
+    beginning = f".{name}.{socket.gethostname()}."
     staging = folder.with_name(f"{beginning}{os.getpid()}{TEMPORARY_SUFFIX}")
     _sweep(folder.parent, beginning)
     with leaving_no_folders(folder.parent):

@@ -19,7 +19,7 @@ from datagen.scenarios.allowed_error import allowed_error
 from datagen.scenarios.scenario import Scenario
 from datagen.scenarios.scenario_text import scenario_json
 from labels.description import label_values
-from labels.envelope import band_envelope
+from labels.envelope import stored_envelope
 from labels.noise import signal_to_noise
 from labels.schema import LABELS, LAYERS
 from labels.truth import PassTable, ball_passes
@@ -95,7 +95,7 @@ def make_record(scenario: Scenario, stored: tuple[str, ...] = ()) -> Record:
         time=trace.time,
         stiffness_time=stiffness_time,
         acceleration=acceleration,
-        envelope=_envelope(scenario, acceleration),
+        envelope=stored_envelope(acceleration[:, 1], scenario.rate, scenario.envelope_band),
         stiffness=stiffness.astype(np.float32),
         passes=ball_passes(scenario.scene, trace.changes, scenario.duration),
         spalls=scenario.scene.spalls,
@@ -128,12 +128,6 @@ def _optional_signals(
         "profile_depth": lambda: race_depths(scenario.scene, PROFILE_POINTS).astype(np.float32),
         "contact_force": lambda: np.asarray(trace.contact_force, dtype=np.float32),
     }
-
-
-def _envelope(scenario: Scenario, acceleration: Rounded) -> Rounded:
-    """Envelope (T,) of the y axis of `acceleration` (T, 2) in the record's band, m/s²."""
-    along = acceleration[:, 1].astype(np.float64)
-    return band_envelope(along, scenario.rate, scenario.envelope_band).astype(np.float32)
 
 
 def _stiffness(scenario: Scenario, time: NDArray[np.float64]) -> tuple[NDArray[np.float64], float]:

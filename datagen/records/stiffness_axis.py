@@ -55,7 +55,7 @@ def _corner(scene: Scene) -> float:
     # A load that all but vanishes turns around in a moment, and the stiffness with it.
     if smallest_load < LEAST_SHARE * largest_load:
         return math.inf
-    compression = (bearing.stribeck_peak_load(smallest_load) / bearing.load_deflection) ** (1.0 / bearing.exponent)
+    compression = bearing.compression(bearing.stribeck_peak_load(smallest_load))
     looseness = bearing.clearance / (FREE_CLEARANCE * compression)
     return CORNER * bearing.balls**-1.5 * bearing.rows**-1.0 * max(1.0, looseness)
 

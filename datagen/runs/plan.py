@@ -26,7 +26,7 @@ from labels.variables import AXES, SIGNALS
 from physics.words import STIFFNESS_COMPONENTS
 
 # Bytes that a shard takes besides its signals: labels, tables, scenarios and the library's blocks.
-SHARD_BYTES = 250_000.0
+SHARD_OVERHEAD = 250_000.0
 # s; a plan that takes longer reports how far it has got.
 SECONDS_BETWEEN_REPORTS = 10.0
 
@@ -146,7 +146,7 @@ def stored_bytes(scenario: Scenario, stored: tuple[str, ...], compression: str) 
 
 def needed_bytes(shards: Sequence[PlannedShard]) -> float:
     """About how many bytes the shards need on the disk."""
-    return sum(SHARD_BYTES + len(shard.records) * shard.record_bytes for shard in shards)
+    return sum(SHARD_OVERHEAD + len(shard.records) * shard.record_bytes for shard in shards)
 
 
 def longest_first(shards: Iterable[PlannedShard]) -> list[PlannedShard]:

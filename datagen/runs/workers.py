@@ -74,9 +74,7 @@ def engaged(engine: Engine) -> Iterator[None]:
             yield
 
 
-def run_tasks(
-    function: Callable[..., Any], tasks: Iterable[tuple[Any, ...]], time_limit: float | None = None
-) -> Generator[Any]:
+def run_tasks(function: Callable[..., Any], tasks: Iterable[tuple[Any, ...]], time_limit: float) -> Generator[Any]:
     """Results of `function(*task)` as they come; raises WorkerLost, and whatever `function` raises.
 
     Close the generator if you leave it early: if the garbage collector does, it may end the workers of a later run.

@@ -109,7 +109,9 @@ def _event_scores(records: list[ScoredRecord], scores: Callable[[ScoredRecord], 
     matched, found, true = counts.reshape(-1, 3).T
 
     def share(value: float, above: Array, below: Array) -> Interval:
-        return Interval(value, *(interval_over_bearings(above, bearing, below) if records else (math.nan, math.nan)))
+        if not records:
+            return Interval(value, math.nan, math.nan)
+        return Interval(value, *interval_over_bearings(above, bearing, below, is_share=True))
 
     return EventFigures(
         true=total.true,

@@ -24,14 +24,14 @@ def bearing_numbers(records: list[ScoredRecord]) -> NDArray[np.int64]:
 
 
 def interval_over_bearings(
-    values: Array, bearing: NDArray[np.int64], weights: Array | None = None
+    values: Array, bearing: NDArray[np.int64], weights: Array | None = None, *, is_share: bool
 ) -> tuple[float, float]:
     """Ends of the 90 % interval of the mean of `values` (N,), by drawing bearings anew, each with all its records.
 
     `bearing` (N,) is the number of the bearing of each value. With `weights` (N,) it is the interval of the sum of the
-    values over the sum of the weights. Where that is 0, or 1, for every bearing, as a share may be, the other end is
-    that of the exact binomial interval of as many bearings [Clopper & Pearson 1934]. NaN for fewer than two bearings,
-    and if all weights are 0.
+    values over the sum of the weights. Where that `is_share`, and 0, or 1, for every bearing, the other end is that of
+    the exact binomial interval of as many bearings [Clopper & Pearson 1934]. NaN for fewer than two bearings, and if
+    all weights are 0.
     """
     _, group = np.unique(bearing, return_inverse=True)
     total, count = np.bincount(group, values), np.bincount(group, weights)
@@ -42,18 +42,18 @@ def interval_over_bearings(
     if not below.any():
         return math.nan, math.nan
     low, high = np.quantile(above[below > 0.0] / below[below > 0.0], [TAIL, 1.0 - TAIL])
-    if low == high and low in (0.0, 1.0):
+    if is_share and low == high and low in (0.0, 1.0):
         unseen = 1.0 - TAIL ** (1.0 / np.count_nonzero(count))
         return max(float(low) - unseen, 0.0), min(float(high) + unseen, 1.0)
     return float(low), float(high)
 
 
-def mean_with_interval(values: list[float], records: list[ScoredRecord]) -> Interval:
+def mean_with_interval(values: list[float], records: list[ScoredRecord], *, is_share: bool = False) -> Interval:
     """The mean of the `values` of these records and its interval, those left out that are no finite number, as where an
-    estimator left a field out; NaN if none is left."""
+    estimator left a field out; NaN if none is left. It `is_share` if each value is 0 or 1 for no or yes."""
     every = np.array(values, dtype=np.float64)
     known = np.isfinite(every)
     if not known.any():
         return Interval(math.nan, math.nan, math.nan)
-    ends = interval_over_bearings(every[known], bearing_numbers(records)[known])
+    ends = interval_over_bearings(every[known], bearing_numbers(records)[known], is_share=is_share)
     return Interval(float(every[known].mean()), *ends)

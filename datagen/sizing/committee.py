@@ -32,7 +32,7 @@ class Committee:
         from sklearn.ensemble import HistGradientBoostingRegressor
 
         models = [HistGradientBoostingRegressor(**self.settings, random_state=seed) for seed in range(self.members)]
-        return mean_of([to_trees(model.fit(rows, aim, weight)) for model in models])
+        return mean_trees([to_trees(model.fit(rows, aim, weight)) for model in models])
 
     def out_of_fold(
         self, rows: Array, aim: Array, used: NDArray[np.bool_], groups: NDArray[np.str_], weight: Array | None = None
@@ -53,7 +53,7 @@ def folds(groups: NDArray[np.str_]) -> Iterator[tuple[Places, Places]]:
     yield from GroupKFold(FOLDS).split(groups, groups=groups)
 
 
-def mean_of(members: list[Trees]) -> Trees:
+def mean_trees(members: list[Trees]) -> Trees:
     """Trees whose sum is the mean of the sums of all `members`."""
     sizes = np.array([member.feature.size for member in members])
     first = np.concatenate([[0], np.cumsum(sizes)[:-1]]).astype(np.int32)

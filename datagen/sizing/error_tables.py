@@ -55,7 +55,7 @@ def _row(value: str, records: list[ScoredRecord]) -> ErrorRow:
     return ErrorRow(
         value=value,
         records=len(records),
-        no_estimate=mean_with_interval([silent(record) for record in records], records),
+        no_estimate=mean_with_interval([silent(record) for record in records], records, is_share=True),
         lag_error=mean_with_interval(lag, answered),
         lag_error_median=median_of(lag),
         arc_error=mean_with_interval(arc, answered),

@@ -33,9 +33,13 @@ def figures_of(records: list[ScoredRecord], load_known: bool) -> list[Figure]:
         arc_target = ARC_TARGETS.get(level) if load_known else None
         figures.append(_figure(f"arc error, {name}", sized, extent_error, arc_target))
         figures += [_figure(f"arc error by rule: {rule}, {name}", sized, error) for rule, error in RULES.items()]
-        figures.append(_figure(f"no estimate, {name}", asked, silent, NO_ESTIMATE_TARGETS.get(level)))
+        figures.append(_figure(f"no estimate, {name}", asked, silent, NO_ESTIMATE_TARGETS.get(level), is_share=True))
     eventless = [record for record in records if record.without_event]
-    figures.append(_figure("abstention where there is no event", eventless, silent, ABSTENTION_TARGET, at_least=True))
+    figures.append(
+        _figure(
+            "abstention where there is no event", eventless, silent, ABSTENTION_TARGET, is_share=True, at_least=True
+        )
+    )
     figures.append(_coverage("lag", answered, lambda record: _holds(record.answer.lag_interval, record.truth.lag)))
     figures.append(
         _coverage("arc", answered, lambda record: _holds(record.answer.extent_interval, record.truth.extent))
@@ -55,10 +59,11 @@ def _figure(
     value: Callable[[ScoredRecord], float],
     target: float | None = None,
     *,
+    is_share: bool = False,
     at_least: bool = False,
 ) -> Figure:
     values = [value(record) for record in records]
-    mean, count = mean_with_interval(values, records), sum(map(math.isfinite, values))
+    mean, count = mean_with_interval(values, records, is_share=is_share), sum(map(math.isfinite, values))
     if target is None or not count:
         return Figure(name, mean, count)
     met = mean.value >= target if at_least else mean.value <= target
@@ -66,7 +71,7 @@ def _figure(
 
 
 def _coverage(what: str, answered: list[ScoredRecord], inside: Callable[[ScoredRecord], float]) -> Figure:
-    plain = _figure(f"90 % interval of the {what} holds the truth", answered, inside)
+    plain = _figure(f"90 % interval of the {what} holds the truth", answered, inside, is_share=True)
     low, high = COVERAGE_TARGET
     if plain.count == 0:
         return plain

@@ -59,8 +59,9 @@ def silent(record: ScoredRecord) -> float:
 
 
 def mean_of(values: list[float]) -> float:
-    """Mean of errors; NaN without any."""
-    return float(np.mean(values)) if values else math.nan
+    """Mean of errors, those left out that are unknown (NaN); NaN without any."""
+    known = [value for value in values if math.isfinite(value)]
+    return float(np.mean(known)) if known else math.nan
 
 
 def median_of(values: list[float]) -> float:

@@ -26,9 +26,7 @@ def write_report(scores: SizeScores, folder: Path, picture: bytes | None) -> lis
     }
     if picture is not None:
         files[PICTURE] = picture
-    write_results(folder, files)
-    if picture is None:
-        (folder / PICTURE).unlink(missing_ok=True)
+    write_results(folder, files, gone=() if picture is not None else (PICTURE,))
     return list(files)
 
 

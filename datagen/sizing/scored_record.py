@@ -12,6 +12,7 @@ from labels.event_scores import EventScores
 from labels.schema import UNKNOWN
 from labels.spall_size.size_estimate import NO_TIMES, Bounds
 from labels.spall_size.size_estimate import UNKNOWN as UNKNOWN_BOUNDS
+from physics.arrays import Array
 
 LONGEST_SCORED_SPACINGS = 0.9
 SHORTEST_LAG_SAMPLES, SHORTEST_LAG_SPACINGS = 5.0, 1.0 / 50.0
@@ -25,6 +26,17 @@ def shortest_lag(rate: float, pass_period: float) -> float:
     """The shortest lag (s) between events of which a size may be asked for, at `rate` (Hz) and with a `pass_period`
     (s)."""
     return max(SHORTEST_LAG_SAMPLES / rate, SHORTEST_LAG_SPACINGS * pass_period)
+
+
+def must_be_sized(lag: float, rate: float, pass_period: float, spacings: float) -> bool:
+    """True if a size must be given: of a spall that is so many ball `spacings` long, with the `lag` (s) between its
+    events, at `rate` (Hz) and with a `pass_period` (s). No whole ball spacing can hide in it."""
+    return lag >= shortest_lag(rate, pass_period) and spacings <= LONGEST_SCORED_SPACINGS
+
+
+def lacks_event(samples: Array) -> NDArray[np.bool_]:
+    """Where no size may be given (N,), by the lag between events in `samples` (N,): NaN for none, or below two."""
+    return ~(samples >= NO_EVENT_SAMPLES)
 
 
 @dataclass(frozen=True)
@@ -152,12 +164,13 @@ class ScoredRecord:
     @property
     def scorable(self) -> bool:
         """True if a size must be given and no whole ball spacing can hide in it."""
-        return self.has_events and self.truth.extent_spacing <= LONGEST_SCORED_SPACINGS
+        truth = self.truth
+        return must_be_sized(truth.lag, truth.rate, truth.pass_period, truth.extent_spacing)
 
     @property
     def without_event(self) -> bool:
         """True if nothing may be given: no event, or a lag below two samples."""
-        return self.truth.known and not self.truth.lag >= NO_EVENT_SAMPLES / self.truth.rate
+        return self.truth.known and bool(lacks_event(np.array(self.truth.lag * self.truth.rate)))
 
     @property
     def asked(self) -> bool:

@@ -55,7 +55,8 @@ class UnsizedRecord:
 def sized_records(
     folder: Path, splits: tuple[str, ...] | None = None, only: Collection[int] | None = None
 ) -> Iterator[SizedRecord]:
-    """The records of a corpus that can be sized, or `only` those of these indices, in order, one in memory at a time.
+    """The records of a corpus that can be sized, or `only` those of these indices, shard by shard, one in memory at a
+    time.
 
     The stated shaft speed of simulated records is wrong by up to ±2 %, so that no estimator may rely on it. That of
     recordings is used as it is, or refined from the signal if it is only nominal. Load and Hertz factor are given where

@@ -11,7 +11,7 @@ import numpy as np
 
 from datagen.scenarios.streams import stream
 from datagen.sizing.in_blocks import in_blocks
-from datagen.sizing.scored_record import CLEAN_DB, LONGEST_SCORED_SPACINGS, shortest_lag
+from datagen.sizing.scored_record import CLEAN_DB, must_be_sized
 from datagen.sizing.sized_records import SizedRecord, sized_records
 from datagen.sizing.stored_record import nominal_period
 from labels.noise import with_white_noise
@@ -154,8 +154,8 @@ def _stretch(sized: SizedRecord, excerpt: Excerpt) -> tuple[float, float]:
 
 
 def _asked(sized: SizedRecord, true_lag: float) -> bool:
-    least = shortest_lag(sized.rate, nominal_period(sized.labels)) * sized.rate
-    return true_lag >= least and float(sized.labels["extent_spacing"]) <= LONGEST_SCORED_SPACINGS
+    period = nominal_period(sized.labels) * sized.rate
+    return must_be_sized(true_lag, 1.0, period, float(sized.labels["extent_spacing"]))
 
 
 def _quality(evidence: Evidence, truth: EventTruth, lag: float) -> Array:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from datagen.sizing.scored_record import NO_EVENT_SAMPLES
+from datagen.sizing.scored_record import NO_EVENT_SAMPLES, lacks_event
 from datagen.sizing.training_rows import Trial
 from physics.arrays import Array
 
@@ -49,7 +49,7 @@ class TrialColumns:
     @property
     def eventless(self) -> Mask:
         """As stored, and no size may be given: no event, or a lag below two samples."""
-        return self.stored & ~(self.true_lag >= NO_EVENT_SAMPLES)
+        return self.stored & lacks_event(self.true_lag)
 
     @property
     def decided(self) -> Mask:

@@ -18,8 +18,7 @@ from labels.features.families import find_family
 from labels.features.known_lines import near_mains
 from labels.features.lines import lines_in
 from labels.features.speed import vibration_excess
-from labels.features.turning import Spectrum
-from physics.arrays import Array
+from physics.arrays import Array, ComplexArray
 
 # m/s: a tenth of the limit between zones A and B of ISO 10816-1 for the smallest machines (0.71 mm/s RMS).
 STILL_VELOCITY = 0.071e-3
@@ -92,7 +91,7 @@ def _velocity(analysis: Analysis) -> float:
     return float(np.sqrt(0.5 * np.sum(amplitude**2) / 1.5))
 
 
-def _windowed(analysis: Analysis) -> Spectrum:
+def _windowed(analysis: Analysis) -> ComplexArray:
     """Fourier components (F - 2,) but the first and last in a Hann window of mean 1, so that no drift or hum leaks."""
     spectrum = analysis.record.raw
     return np.asarray(spectrum[1:-1] - 0.5 * (spectrum[:-2] + spectrum[2:]))

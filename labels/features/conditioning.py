@@ -9,9 +9,9 @@ import numpy as np
 from scipy import fft
 
 from labels.band_tree import COMMON_BANDWIDTH, usable_bandwidth
-from labels.features.turning import Spectrum, Turning
+from labels.features.turning import Turning
 from labels.noise import ROUNDING
-from physics.arrays import Array
+from physics.arrays import Array, ComplexArray
 
 FEWEST_SAMPLES_USED = 64
 BLOCKS = 96
@@ -29,8 +29,8 @@ class Conditioned:
     `samples` of the record were used; `turning` is given where the speed of its shaft changes.
     """
 
-    raw: Spectrum
-    flat: Spectrum
+    raw: ComplexArray
+    flat: ComplexArray
     step: float
     bandwidth: float
     samples: int
@@ -41,14 +41,14 @@ class Conditioned:
         """Length of the record that was used, s."""
         return 1.0 / self.step
 
-    def slow(self, count: int) -> Spectrum:
+    def slow(self, count: int) -> ComplexArray:
         """The first `count` raw components, or fewer; where the speed changes, of the record seen at even angles."""
         if self.turning is None:
             return self.raw[:count]
         count = min(count, self.raw.size)
         return np.asarray(fft.rfft(self.turning.evenly(self.raw, self.samples, count)))[:count]
 
-    def waveform(self, spectrum: Spectrum) -> Array:
+    def waveform(self, spectrum: ComplexArray) -> Array:
         """The signal (T,) of a spectrum, sampled at about twice the bandwidth, up to a constant factor."""
         return np.asarray(fft.irfft(spectrum, fft.next_fast_len(2 * spectrum.size, real=True)))
 
@@ -131,7 +131,7 @@ def _linear_between(centres: Array, levels: Array, size: int) -> Array:
     return np.asarray(levels[..., left] * (1.0 - share) + levels[..., left + 1] * share)
 
 
-def _flattened(spectrum: Spectrum) -> Spectrum:
+def _flattened(spectrum: ComplexArray) -> ComplexArray:
     power = np.abs(spectrum) ** 2
     local = local_mean_power(power, max(FEWEST_BINS, spectrum.size // BLOCKS))
     # A stretch of exact silence (a filter's stop band) stays silent instead of being raised to noise.

@@ -10,9 +10,10 @@ from scipy import fft
 from labels.band_tree import band_edges
 from labels.features.conditioning import Conditioned, over_floor
 from labels.features.known_lines import mains_components
-from labels.features.turning import Spectrum, Turning
+from labels.features.turning import Turning
+from labels.squared_envelope import excess_kurtosis, squared_envelope
 from labels.window import periodic_hann
-from physics.arrays import Array
+from physics.arrays import Array, ComplexArray
 
 ENVELOPE_HARMONICS = 4.0
 # Share of the bandwidth above which no band has lines of an envelope.
@@ -55,7 +56,7 @@ def envelope_spectra(record: Conditioned, shaft_hz: float, top_hz: float, narrow
     square_mean, kurtosis = np.zeros(len(edges)), np.zeros(len(edges))
     for band, (low, high) in enumerate(edges):
         inside = record.flat[int(low * record.flat.size) : int(high * record.flat.size)]
-        power[band], square_mean[band], kurtosis[band] = _squared_envelope(inside, count, record)
+        power[band], square_mean[band], kurtosis[band] = _envelope_lines(inside, count, record)
     block = max(FEWEST_FLOOR_BINS, int(FLOOR_ORDERS * shaft_hz / record.step))
     excess = over_floor(power, block)
     widths = (edges[:, 1] - edges[:, 0]) * record.bandwidth
@@ -66,20 +67,16 @@ def envelope_spectra(record: Conditioned, shaft_hz: float, top_hz: float, narrow
     return EnvelopeSpectra(record.step, excess, depth, kurtosis, edges)
 
 
-def _squared_envelope(inside: Spectrum, count: int, record: Conditioned) -> tuple[Array, float, float]:
+def _envelope_lines(inside: ComplexArray, count: int, record: Conditioned) -> tuple[Array, float, float]:
     """One-sided power (count,) of the Hann-windowed squared envelope of a band's Fourier components, the mean of that
-    envelope, and its excess kurtosis (mean fourth power over squared mean square, minus 2)."""
-    length = fft.next_fast_len(2 * max(inside.size, count))
-    padded = np.zeros(length, dtype=np.complex128)
-    padded[: inside.size] = inside
-    square = np.abs(fft.ifft(padded)) ** 2
+    envelope, and the excess kurtosis of their signal."""
+    square = squared_envelope(inside, 2 * max(inside.size, count))
     mean = float(square.mean())
-    kurtosis = float(np.mean(square**2)) / max(mean**2, np.finfo(np.float64).tiny) - 2.0
     course = square - mean
     if record.turning is not None:
         course = _at_even_angles(course, count, record.step, record.turning)
     lines = np.asarray(fft.rfft(course * periodic_hann(course.size)))[:count] * (2.0 / course.size)
-    return np.abs(lines) ** 2, max(mean, float(np.finfo(np.float64).tiny)), kurtosis
+    return np.abs(lines) ** 2, max(mean, float(np.finfo(np.float64).tiny)), excess_kurtosis(square)
 
 
 def _at_even_angles(course: Array, count: int, step: float, turning: Turning) -> Array:

@@ -12,13 +12,10 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import fft
 from scipy.interpolate import CubicSpline
 
-from physics.arrays import Array
-
-Spectrum = NDArray[np.complex128]
+from physics.arrays import Array, ComplexArray
 
 # Samples, for each component asked for, between which the spline runs.
 OVERSAMPLING = 8
@@ -60,7 +57,7 @@ class Turning:
         """The turning of the first `samples` of the record."""
         return Turning(self.angle[:samples])
 
-    def evenly(self, spectrum: Spectrum, samples: int, count: int) -> Array:
+    def evenly(self, spectrum: ComplexArray, samples: int, count: int) -> Array:
         """What the Fourier components `spectrum` (F,) of the record's `samples` make up, at even angles (N,).
 
         It holds the first `count` components of what it turns into.

@@ -6,8 +6,7 @@ import numpy as np
 
 from labels.features.analysis import Analysis
 from labels.features.feature import Feature
-from labels.features.turning import Spectrum
-from physics.arrays import Array
+from physics.arrays import Array, ComplexArray
 from physics.rms import rms
 
 DYER = "Dyer & Stewart 1978, J. Mech. Design 100"
@@ -50,7 +49,7 @@ def measure(analysis: Analysis) -> dict[str, float]:
     }
 
 
-def _without_drift(analysis: Analysis) -> Spectrum:
+def _without_drift(analysis: Analysis) -> ComplexArray:
     """The raw spectrum above where sensors drift, or all of it where nothing else is there."""
     steady = analysis.record.raw.copy()
     steady[: int(analysis.drift_hz / analysis.record.step) + 1] = 0.0

@@ -12,8 +12,7 @@ USUAL_SHARE_OF_PEAK = 0.91
 
 def static_compression(bearing: Bearing, load: float) -> float:
     """Compression (m) of a ball at a spall near the middle of the load zone under a radial `load`, N [P14 Eq. 24]."""
-    peak = bearing.stribeck_peak_load(abs(load))
-    return USUAL_SHARE_OF_PEAK * (peak / bearing.load_deflection) ** (1.0 / bearing.exponent)
+    return USUAL_SHARE_OF_PEAK * bearing.compression(bearing.stribeck_peak_load(abs(load)))
 
 
 def release_arc(bearing: Bearing, race: str, load: float) -> float:

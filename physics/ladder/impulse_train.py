@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from scipy.linalg import eigh
 
 from physics._jit import njit_lean
-from physics.arrays import Array, Flags, Index
+from physics.arrays import Array, ComplexArray, Flags, Index
 from physics.imperfections import Imperfections
 from physics.ladder.model import Model
 from physics.modes import coupled_matrix
@@ -141,10 +141,10 @@ class Swings(NamedTuple):
     x and y; `sample` (E,) the first one behind each step, rising, and `kick` (E, M) what it adds there, m/s².
     """
 
-    turn: NDArray[np.complex128]
+    turn: ComplexArray
     reading: Array
     sample: Index
-    kick: NDArray[np.complex128]
+    kick: ComplexArray
 
 
 def _swings(edges: Edges, squared: Array, shapes: Array, damping: Array, force: Array, rate: float) -> Swings:
@@ -161,7 +161,7 @@ def _swings(edges: Edges, squared: Array, shapes: Array, damping: Array, force: 
 
 
 @njit_lean
-def _ring(swings: Swings, swing: NDArray[np.complex128], acceleration: Array) -> None:
+def _ring(swings: Swings, swing: ComplexArray, acceleration: Array) -> None:
     """Fill the `acceleration` (T, 2), m/s²; `swing` (M,) is where the modes are, at first at rest."""
     turn, reading, edge = swings.turn, swings.reading, 0
     for k in range(acceleration.shape[0]):

@@ -5,9 +5,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
-from physics.arrays import Array
+from physics.arrays import Array, ComplexArray
 from physics.integrators.method import ALL_MODES, CONTACT_MODES, Method
 from physics.modes import coupled_matrix
 from physics.outcome import Outcome, SimulationFailed
@@ -19,7 +18,7 @@ from physics.statics.stiffness import symmetric_matrices
 MOST_STABLE_SUBSTEPS = 1024
 
 
-def limiting_modes(rig: Rig, limits: str, stiffness: Array, damping: Array) -> NDArray[np.complex128]:
+def limiting_modes(rig: Rig, limits: str, stiffness: Array, damping: Array) -> ComplexArray:
     """Eigenvalues λ (1/s) of the modes that limit a method, none for NO_MODES, for a bearing of `stiffness` and
     `damping` (3,): xx, yy, xy.
 

@@ -142,6 +142,13 @@ CASES = {
         "part[1].defect.extent_spacing = {uniform = [1, 2]}",
         "1 is no line spall; allowed: below 1 ball spacing",
     ),
+    "a line spall that is by less than a rounding shorter than the ball spacing": (
+        "extent_spacing = 0.1",
+        "extent_spacing = 0.9999999995",
+        12,
+        "part[1].defect.extent_spacing = 0.9999999995",
+        "is no line spall; allowed: below 1 ball spacing",
+    ),
     "half a record": (
         "records = 2",
         "records = 2.5",

@@ -5,9 +5,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
-from physics.arrays import Array
+from physics.arrays import Array, ComplexArray
 from physics.integrators.modal.flow import DISPLACEMENT, OUTPUT, LinearFlow, complex_modes
 
 # How many times its decay contacts may shift a mode before errors count as fed by them. Scenes are known where errors
@@ -37,21 +36,21 @@ def share_below(flow: LinearFlow, duration: float, frequency: float) -> float:
     return max(shares)
 
 
-def _left_by_a_push(flow: LinearFlow, duration: float, axis: int) -> tuple[NDArray[np.complex128], ...]:
+def _left_by_a_push(flow: LinearFlow, duration: float, axis: int) -> tuple[ComplexArray, ...]:
     """Eigenvalues λ (1/s) and amplitudes s (m/s² per N s) of the modes in what a push of 1 N s leaves in the
     resonator's acceleration along an `axis`: Re Σ s e^λt, decaying within the `duration` (s) at least."""
     rate, kick, read = complex_modes(flow, (flow.rate, flow.kick, flow.read[OUTPUT]), axis)
     return np.minimum(rate.real, -0.5 / duration) + 1j * rate.imag, read.conj() * kick
 
 
-def _energy(rate: NDArray[np.complex128], share: NDArray[np.complex128]) -> float:
+def _energy(rate: ComplexArray, share: ComplexArray) -> float:
     """∫ (Re Σ s e^λt)² dt from 0 to ∞, of all pairs of modes."""
     same = share[:, None] * share / (rate[:, None] + rate)
     mixed = share[:, None] * share.conj() / (rate[:, None] + rate.conj())
     return -0.5 * float((same + mixed).sum().real)
 
 
-def _spectral_energy(rate: NDArray[np.complex128], share: NDArray[np.complex128], end: float) -> float:
+def _spectral_energy(rate: ComplexArray, share: ComplexArray, end: float) -> float:
     """∫ |H(iω)|² dω from 0 to `end` (rad/s), of the Laplace transform H of Re Σ s e^λt.
 
     Of two of its terms, s/2 over iω − λ each, one with the other's conjugate, the product is their sum over −(λ + λ̄').

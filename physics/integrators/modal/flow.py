@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics._jit import njit_inline, njit_lean
-from physics.arrays import Array
+from physics.arrays import Array, ComplexArray
 from physics.contact.turning import cosine_sine
 from physics.motion import MotionModel
 
@@ -248,7 +248,7 @@ def slowest_decay(flow: LinearFlow) -> float:
     return min(float(np.abs(complex_modes(flow, (flow.rate,), axis).real).min()) for axis in range(2))
 
 
-def complex_modes(flow: LinearFlow, values: tuple[Array, ...], axis: int) -> NDArray[np.complex128]:
+def complex_modes(flow: LinearFlow, values: tuple[Array, ...], axis: int) -> ComplexArray:
     """Of the real numbers `values` (N times 12) those of one direction as complex ones (N, modes)."""
     pairs = np.array(values)[:, axis * PER_AXIS : (axis + 1) * PER_AXIS].reshape(-1, PAIRS, 2)
     swinging = flow.twist[axis * PAIRS : (axis + 1) * PAIRS] > 0.0

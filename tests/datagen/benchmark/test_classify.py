@@ -131,6 +131,7 @@ def test_ones_own_code_is_named_in_messages_as_it_was_given(classify):
             ("--learning-curve", "--estimator", "own_estimators:always_outer"),
             "always_outer does not learn",
         ),
+        (("--noise-db", "1_0"), '--noise-db = "1_0"; allowed: numbers from -100 to 100 dB'),
         (("--noise-db", "nan"), '--noise-db = "nan"; allowed: numbers from -100 to 100 dB'),
         (("--noise-draws", "3"), "--noise-draws = 3: there is no noise to draw; allowed: with --noise-db"),
         (("--noise-db=-10,-101",), "allowed: numbers from -100 to 100 dB"),

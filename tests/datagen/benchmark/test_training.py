@@ -44,3 +44,8 @@ def test_plain_impulse_trains_are_as_many_as_asked():
     assert counts == [(3, 12), (6, 12), (9, 12), (12, 12)]
     assert sorted(set(made.classes)) == ["healthy", "line inner", "line outer"]
     assert len(made.classes) == 12
+
+
+def test_too_few_of_the_first_records_are_told_of_the_option_that_left_the_others_out(tiny_corpus):
+    with pytest.raises(BadInput, match=r"--first = 1: too few virtual bearings .*; allowed: records of 4 virtual"):
+        training_records(tiny_corpus, also_tested=False, first=1)

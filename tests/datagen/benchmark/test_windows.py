@@ -48,6 +48,14 @@ def test_windows_that_find_no_room_name_the_folder_of_temporary_files(tiny_corpu
         read_windows(tiny_corpus, np.array([0]), 1000.0)
 
 
+def test_an_output_that_was_closed_is_not_told_as_a_full_disk(tiny_corpus):
+    def closed(done, total):
+        raise BrokenPipeError
+
+    with pytest.raises(BrokenPipeError):
+        read_windows(tiny_corpus, np.array([0]), 1000.0, closed)
+
+
 def test_an_axis_whose_sensor_is_dead_has_no_windows(tiny_corpus, monkeypatch):
     heard = Corpus.waveform
 

@@ -287,15 +287,26 @@ def test_a_report_is_written_over_an_earlier_one_but_over_nothing_else(measured:
     assert {path.name for path in (tmp_path / "card").iterdir()} == set(written.files)
     (tmp_path / "other").mkdir()
     (tmp_path / "other" / "letter.txt").write_text("keep")
-    with pytest.raises(BadInput, match="this folder holds things other than a report"):
+    with pytest.raises(BadInput, match=r"this folder holds things other than a report, such as letter\.txt"):
         write_report(measured, tmp_path / "other")
     assert [path.name for path in (tmp_path / "other").iterdir()] == ["letter.txt"]
     (tmp_path / "other" / "card.md").write_text("of somebody else")
-    with pytest.raises(BadInput, match="this folder holds things other than a report"):
+    with pytest.raises(BadInput, match=r"this folder holds things other than a report, such as letter\.txt"):
         write_report(measured, tmp_path / "other")
     (tmp_path / "card" / "record_holiday.png").write_bytes(b"a picture")
     write_report(measured, tmp_path / "card")
     assert (tmp_path / "card" / "record_holiday.png").exists()
+
+
+def test_a_report_that_was_interrupted_is_written_again(measured: Path, tmp_path: Path) -> None:
+    folder = tmp_path / "card"
+    folder.mkdir()
+    (folder / "card.md").write_text("the first of its files")
+    for left in (f".{7:032x}.part", "record_999999.png"):
+        (folder / left).write_bytes(b"not finished")
+    report = write_report(measured, folder)
+    assert sorted(path.name for path in folder.iterdir()) == sorted(report.files)
+    assert (folder / "card.md").read_text() != "the first of its files"
 
 
 def test_the_command_writes_the_facts_as_json_and_refuses_a_folder_without_a_corpus(

@@ -35,6 +35,12 @@ def test_slip_is_given_after_a_tilde_and_one_percent_is_that_of_the_reference_sc
     np.testing.assert_allclose(knots[4], 4.0 * np.array(knots[1]), rtol=0.0, atol=5e-12)  # rounded to 1e-12 each
 
 
+@pytest.mark.parametrize("scene", ["G1@1_0", "G1~1_0"])
+def test_figures_with_a_sign_between_them_are_no_number(scene):
+    with pytest.raises(BadInput, match=r"^SCENE = "):
+        find_subject(scene)
+
+
 @pytest.mark.parametrize(("alias", "name"), [("gearbox", "G1"), ("fan", "F1"), ("fan@3~1", "F1@3~1")])
 def test_a_rig_by_its_name_is_its_line_spall(alias, name):
     assert find_subject(alias) == find_subject(name)

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from datagen.errors import BadInput
-from datagen.judging.scored_runs import log_path, write_line
+from datagen.judging.scored_runs import log_path, require_log, write_line
 from datagen.versions import program_versions
 
 
@@ -43,3 +43,13 @@ def test_a_log_that_cannot_be_written_is_told_with_the_cause(tmp_path):
     log_path(tmp_path).mkdir()
     with pytest.raises(BadInput, match=r"it cannot be written: Is a directory; allowed: a corpus that can be written"):
         write_line(tmp_path, {})
+    with pytest.raises(BadInput, match=r"it cannot be written: Is a directory; allowed: a corpus that can be written"):
+        require_log(tmp_path)
+
+
+def test_asking_for_a_log_leaves_it_as_it_is(tmp_path):
+    require_log(tmp_path)
+    assert list(tmp_path.iterdir()) == []
+    log_path(tmp_path).write_text("a line\n")
+    require_log(tmp_path)
+    assert log_path(tmp_path).read_text() == "a line\n"

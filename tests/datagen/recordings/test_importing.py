@@ -306,7 +306,7 @@ def test_records_of_a_kind_share_a_shard_up_to_its_limit(
     bring: Bring, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     np.save(tmp_path / "a.npy", noise(1000))
-    monkeypatch.setattr("datagen.recordings.import_plan.SHARD_BYTES", 1000.0)
+    monkeypatch.setattr("datagen.recordings.import_plan.MOST_SHARD_BYTES", 1000.0)
     spec = '[[recording]]\nname = "all"\nfiles = "a.npy"\nunit = "g"\nrate_hz = 1000\ny = "data"\ncut_s = 0.1\n'
     corpus = bring(spec)
     sizes = []
@@ -327,6 +327,6 @@ def test_files_of_one_name_in_several_folders_have_each_its_hash_in_the_manifest
 
 def test_a_shard_is_filled_to_its_limit(bring: Bring, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     np.save(tmp_path / "a.npy", noise(400))
-    monkeypatch.setattr("datagen.recordings.import_plan.SHARD_BYTES", 800.0)
+    monkeypatch.setattr("datagen.recordings.import_plan.MOST_SHARD_BYTES", 800.0)
     spec = '[[recording]]\nname = "all"\nfiles = "a.npy"\nunit = "g"\nrate_hz = 1000\ny = "data"\ncut_s = 0.1\n'
     assert [entry.records for entry in bring(spec).manifest.shards] == [2, 2]

@@ -213,3 +213,11 @@ def test_a_folder_that_cannot_be_made_is_refused_by_its_name(tmp_path: Path) -> 
     with pytest.raises(BadInput) as refused, staged(folder):
         pytest.fail("was filled")
     assert str(refused.value) == f"{folder}: --out: cannot write here: Not a directory"
+
+
+@pytest.mark.parametrize("name", ["c" * 255, "ü" * 127])
+def test_a_folder_of_the_longest_name_is_filled(tmp_path: Path, name: str) -> None:
+    with staged(tmp_path / name) as staging:
+        (staging / "shards" / "one").write_text("filled")
+    assert (tmp_path / name / "shards" / "one").read_text() == "filled"
+    assert [path.name for path in tmp_path.iterdir()] == [name]

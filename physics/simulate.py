@@ -12,7 +12,7 @@ from physics.integrators.modal.error_growth import share_below
 from physics.ladder.model_table import SIMPLER_MODELS
 from physics.motion import motion_model, starting_state
 from physics.outcome import Outcome, SimulationFailed
-from physics.request import SMALLEST_ACCURACY, Accurate, FixedSteps, HalvedSteps, LeadIn, Reference, Simpler, Solution
+from physics.request import Accurate, FixedSteps, HalvedSteps, LeadIn, Reference, Simpler, Solution
 from physics.response.adaptive import respond_accurately
 from physics.response.asked import Asked
 from physics.response.fixed_steps import Stepping
@@ -77,7 +77,7 @@ def _respond_to_lead_in(scene: Scene, rate: float, solution: Solution, keep: Kep
     if isinstance(solution, Accurate):
 
         def respond(asked: float) -> Trace:
-            return _respond(earlier, rate, replace(solution, accuracy=max(asked, SMALLEST_ACCURACY)), keep)
+            return _respond(earlier, rate, replace(solution, accuracy=asked), keep)
 
         trace = respond_behind(respond, before, solution.accuracy, solution.least_error)
     else:
@@ -125,7 +125,7 @@ def _respond_accurately(scene: Scene, rate: float, solution: Accurate, keep: Kep
     repeated = solution.repeat and alone and worth_repeating(scene, samples / rate, accuracy)
 
     def respond(sought: float) -> tuple[Trace, float]:
-        asked = Asked(longer, rest, rate * factor, marched, max(sought, SMALLEST_ACCURACY), solution.least_error)
+        asked = Asked(longer, rest, rate * factor, marched, sought, solution.least_error)
         trace = respond_until_repeated(asked) if repeated else respond_accurately(asked, keep)
         lowered, size = _lowered(trace, rate, factor, samples), rms(trace.acceleration)
         if trace.method == REPEATED and rms(lowered.acceleration) < LEAST_LEFT * size:

@@ -7,7 +7,8 @@
   features; `feature_table`: these rows for people; `windows`: raw pieces for users' own estimators
 - `training_source`: what can be learned from: a corpus, `kept_rows`, which come with the program, or impulse trains
 - `training`, `trained` (the result, as a file), `learning_curve`, `importance` (of features)
-- `impulse_signal`, `impulse_training`: the rival training set, made without contact physics; `log_uniform`: how levels are drawn
+- `impulse_signal`, `impulse_training`: the rival training set, made without contact physics;
+  `log_uniform`: how levels are drawn
 - `machines`: keeps records of machines that were learned from out of the scores; `chosen`: the records that are judged
 - `answers`: checks what an estimator says
 - `verdicts`: one answer per record; `predictions`: these as a table

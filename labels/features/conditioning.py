@@ -100,7 +100,7 @@ def local_mean_power(power: Array, block: int) -> Array:
     The median of an exponential distribution is ln 2 times its mean.
     """
     size = power.shape[-1]
-    block = max(2, min(block, size))
+    block = min(max(2, block), size)
     hop = max(1, block // 2)
     starts = np.arange(0, size - block + 1, hop)
     medians = np.median(np.lib.stride_tricks.sliding_window_view(power, block, axis=-1)[..., ::hop, :], axis=-1)

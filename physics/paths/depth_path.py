@@ -203,11 +203,11 @@ def _deepest(nodes: Array, values: Array, left: Array, width: Array, cubics: Arr
     largest = max(float(values.max()), float(inside.max(initial=-math.inf)))
     arcs = np.concatenate([nodes, left[turning] + x * width[turning]])
     order = np.argsort(arcs, kind="stable")
-    deep = np.concatenate([values, inside])[order] >= largest - min(LEVEL, 1e-3 * largest)
+    deep = np.concatenate([values, inside])[order] >= largest - max(0.0, min(LEVEL, 1e-3 * largest))
     turns = np.flatnonzero(np.diff(deep, prepend=False, append=False))
     begin, end = arcs[order[turns[0::2]]], arcs[order[turns[1::2] - 1]]
     widest = int(np.argmax(end - begin))
-    return float(0.5 * (begin[widest] + end[widest])), largest
+    return float(0.5 * (begin[widest] + end[widest])), max(largest, 0.0)
 
 
 def _lowest_within(spall: tuple[float, float], depth: Curve) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from functools import lru_cache
 from itertools import pairwise
 
@@ -45,12 +46,17 @@ MOST_TURNS = 8
 PATHS_KEPT = 64
 
 
-@lru_cache(maxsize=PATHS_KEPT)
 def build_path(spall: Spall, bearing: Bearing) -> DepthPath:
     """The path of the ball's centre over `spall`: a Tukey window, a deep gap in closed form, or a rolled surface.
 
-    The same spall and bearing give the same object, so its arrays are for reading only.
+    The same spall and bearing give the same object, wherever on the race the spall is, so its arrays are for reading
+    only.
     """
+    return _path_of_shape(replace(spall, angle=0.0, row=1), bearing)
+
+
+@lru_cache(maxsize=PATHS_KEPT)
+def _path_of_shape(spall: Spall, bearing: Bearing) -> DepthPath:
     if spall.rolled_arc > 0.0:
         return _rolled_path(spall, bearing)
     return _tukey_path(spall) if spall.profile == "tukey" else _gap_path(spall, bearing)

@@ -7,6 +7,8 @@ from typing import NamedTuple
 
 from physics.trace import Trace
 
+# The smallest relative accuracy that a response may be asked for.
+SMALLEST_ACCURACY = 1e-6
 # Of the accuracy that would just do, what a response that was not exact enough is made to next; how many are made.
 NEXT_SHARE, MOST_ATTEMPTS = 0.9, 3
 
@@ -22,14 +24,14 @@ class Part(NamedTuple):
 def exact_in_part(respond: Callable[[float], Part], accuracy: float, least_error: float) -> Part:
     """What `respond` gives, to a relative RMS `accuracy` of the part that counts, or to `least_error` (m/s², RMS).
 
-    `respond` is called with smaller and smaller accuracies until that is reached, three times at most, and once if the
-    response is chaotic.
+    `respond` is called with smaller and smaller accuracies until that is reached, or SMALLEST_ACCURACY, three times at
+    most, and once if the response is chaotic.
     """
     asked = accuracy
     for _ in range(MOST_ATTEMPTS):
         part = respond(asked)
         allowed = max(accuracy * part.size, least_error)
-        if part.trace.chaotic or part.error <= allowed:
+        if part.trace.chaotic or part.error <= allowed or asked == SMALLEST_ACCURACY:
             break
-        asked *= NEXT_SHARE * allowed / part.error
+        asked = max(asked * NEXT_SHARE * allowed / part.error, SMALLEST_ACCURACY)
     return part

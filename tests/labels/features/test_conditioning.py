@@ -7,6 +7,12 @@ from labels.band_tree import COMMON_BANDWIDTH
 from labels.features.conditioning import condition, local_mean_power, over_floor
 
 
+@pytest.mark.parametrize("size", [1, 2, 3])
+def test_of_few_components_the_local_mean_is_that_of_all(size):
+    power = np.full(size, 3.0)
+    assert local_mean_power(power, 400) == pytest.approx(power / np.log(2.0))
+
+
 def test_the_local_mean_power_of_exponential_noise_is_its_mean():
     power = np.random.default_rng(0).exponential(3.0, 40_000)
     # The median of 400 values of an exponential scatters by 5 %; averaged over the axis far less.

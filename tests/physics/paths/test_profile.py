@@ -282,3 +282,21 @@ def test_the_path_of_a_spall_is_built_once_and_that_of_another_spall_or_bearing_
     assert build_path(tukey(), dataclasses.replace(gearbox.bearing)) is path
     assert build_path(tukey(depth=13e-6), gearbox.bearing) is not path
     assert build_path(gap(), gearbox.bearing).largest_depth != build_path(gap(), fan.bearing).largest_depth
+
+
+@pytest.mark.parametrize("depth", [0.0, 1e-9])
+@pytest.mark.parametrize("taper", [0.0, 0.01])
+def test_a_floor_that_stands_proud_of_the_race_throughout_is_lowest_at_an_edge(gearbox, depth, taper):
+    heights = (0.0, -1e-6, -1e-6, -1e-6, 0.0)
+    shape = {"extent": 0.035, "depth": depth, "entry_taper": taper, "exit_taper": taper}
+    spall = tukey(roughness=1e-6, roughness_values=heights, **shape)
+    path = build_path(spall, gearbox.bearing)
+    assert 0.0 <= path.largest_depth <= depth
+    assert abs(path.deepest) == pytest.approx(0.0175, rel=0.1)
+    assert path.depth(np.array([0.0])) == pytest.approx(depth - 1e-6)
+
+
+def test_a_spall_elsewhere_on_the_race_has_the_same_path(gearbox):
+    spall = gap("inner", entry_taper=1e-3)
+    elsewhere = dataclasses.replace(spall, angle=spall.angle + 1.0, row=2)
+    assert build_path(elsewhere, gearbox.bearing) is build_path(spall, gearbox.bearing)

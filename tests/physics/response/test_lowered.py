@@ -93,3 +93,16 @@ def test_an_error_that_is_allowed_anyway_needs_no_other_response():
 
     assert respond_lowered(quiet, 0.1, 1e-3, 1e-3).error_estimate == 1e-3
     assert asked == [1e-3]
+
+
+def test_nothing_is_asked_again_at_the_smallest_accuracy():
+    asked = []
+
+    def respond(accuracy):
+        asked.append(accuracy)
+        return trace(1e-6, accuracy), 1.0
+
+    assert respond_lowered(respond, 1.0, 1e-6, 0.0).error_estimate == pytest.approx(1.0)
+    assert asked == [1e-6]
+    respond_lowered(respond, 1.0, 1e-3, 0.0)
+    assert asked == [1e-6, 1e-3, 1e-6]

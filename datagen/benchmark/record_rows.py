@@ -129,9 +129,10 @@ def record_rows(
         rows += [replace(row, axis=axis) for row in found]
         reasons += [row.reason for row in found] or [DEAD]
     step = piece_count(len(signals), rate, reading.window) * rate / len(signals)
-    # Over the angle of a shaft that changes its speed, mains is no line and nothing is left out for it.
-    in_mains = races_in_mains(kinematics, step) if turning is None else ()
     found_rpm = _found_rpm(rows)
+    turned = kinematics if found_rpm is None else kinematics.at(found_rpm / RPM_PER_HZ)
+    # Over the angle of a shaft that changes its speed, mains is no line and nothing is left out for it.
+    in_mains = races_in_mains(turned, step) if turning is None else ()
     facts = RecordFacts(
         reason=reasons[0] if reasons and all(reasons) else "",
         jumps=jumps,

@@ -27,7 +27,10 @@ if TYPE_CHECKING:
 
 Option, Argument = typer.Option, typer.Argument
 AS_USUAL = Options()
-IN_MAINS = "balls pass the {race} race at a multiple of 50 or 60 Hz, which is not counted: a fault of it is hardly seen"
+IN_MAINS = (
+    "balls may pass the {race} race at a multiple of 50 or 60 Hz, which is not counted: a fault of it is hardly seen "
+    "then"
+)
 IN_SHAFT = (
     "balls pass the {race} race at a multiple of the shaft's speed, which is not counted: a fault of it is hardly seen "
     "unless the cage slips"

@@ -11,6 +11,8 @@ from physics.orders import ball_spin_order, cage_order, inner_pass_order, outer_
 
 # Shares by which the cage's slip moves a family at most, and usually.
 SLIP_TOLERANCE, SLIP_PRIOR = 0.025, 0.012
+# Standard deviation of the cage's speed about the one of pure rolling, as a share: slip and unknown contact angle.
+SLIP_SPREAD = 0.007
 # Shares by which a shaft may turn faster or slower than a speed that was measured or told, and than a nominal one: the
 # rotor of a motor lags behind the field, the more so the smaller the motor and the larger its load.
 MEASURED_WITHIN, NOMINAL_WITHIN = 0.022, 0.05

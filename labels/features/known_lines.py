@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from labels.features.families import HARMONICS
-from labels.features.kinematics import Kinematics
+from labels.features.kinematics import SLIP_SPREAD, Kinematics
 from physics.arrays import Array
 from physics.bearing import RACES
 
@@ -65,12 +65,12 @@ def mains_components(count: int, step: float) -> NDArray[np.bool_]:
 
 
 def races_in_mains(kinematics: Kinematics, step: float) -> tuple[str, ...]:
-    """The races whose ball pass frequency counts as mains in a spectrum of components `step` (Hz) apart: with all its
-    harmonics it is left out, and a fault of that race is hardly seen."""
+    """The races whose ball pass frequency, as far as slip moves it, may count as mains in a spectrum of components
+    `step` (Hz) apart: with all its harmonics it is left out then, and a fault of that race is hardly seen."""
     if step > COARSEST_STEP:
         return ()
     orders = np.array([kinematics.pass_order(race) for race in RACES], dtype=np.float64)
-    hidden = _taken_for_mains(orders * kinematics.shaft_hz, step)
+    hidden = _taken_for_mains(orders * kinematics.shaft_hz, step, SLIP_SPREAD)
     return tuple(race for race, is_hidden in zip(RACES, hidden, strict=True) if is_hidden)
 
 
@@ -85,10 +85,11 @@ def races_in_shaft(kinematics: Kinematics, step: float) -> tuple[str, ...]:
     return tuple(race for race, order in orders.items() if (np.abs(order - np.round(order)) <= margin).all())
 
 
-def _taken_for_mains(frequency: NDArray[Any], step: float) -> NDArray[np.bool_]:
-    """Which frequencies (F,), Hz, count as mains in a spectrum of components `step` (Hz) apart."""
+def _taken_for_mains(frequency: NDArray[Any], step: float, spread: float = 0.0) -> NDArray[np.bool_]:
+    """Which frequencies (F,), Hz, known to a share `spread`, count as mains in a spectrum of components `step` (Hz)
+    apart."""
     margin = np.maximum(np.minimum(MAINS_SPREAD * frequency, MAINS_REACH), STEADY_MAINS * frequency)
-    return near_mains(frequency, 1.01 * step + margin)
+    return near_mains(frequency, 1.01 * step + margin + spread * frequency)
 
 
 def near_mains(frequency: NDArray[Any], margin: NDArray[Any]) -> NDArray[np.bool_]:

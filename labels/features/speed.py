@@ -16,15 +16,13 @@ from labels.features.families import (
     standing,
     tempered,
 )
-from labels.features.kinematics import MEASURED_WITHIN, Kinematics
+from labels.features.kinematics import MEASURED_WITHIN, SLIP_SPREAD, Kinematics
 from labels.features.lines import Lines, lines_in
 from physics.arrays import Array, Flags
 
 SHAFT_HARMONICS = 8
 # Width, in orders of the shaft, of the blocks from which the floor under the lines of the vibration is taken.
 SPECTRUM_FLOOR_ORDERS = 3.0
-# Standard deviation of the cage's speed about the one of pure rolling, as a share: slip and unknown contact angle.
-SLIP_SPREAD = 0.007
 # Standard deviation of the shaft's speed about the one stated, over the most that it may be off.
 PRIOR_SPREAD = 4.0 / 11.0
 # Fewest and most speeds that are tried.

@@ -424,8 +424,8 @@ def test_what_was_taken_out_and_what_hides_is_told_below_the_scores(capsys):
         "  levelled   3 jumps in 2 records\n",
         "  despiked   5 glitches in 1 record\n",
         "  shocks cut 7 in 1 record\n",
-        "  in mains   1: balls pass the outer race at a multiple of 50 or 60 Hz",
-        "  in mains   2: balls pass the inner race at a multiple of 50 or 60 Hz",
+        "  in mains   1: balls may pass the outer race at a multiple of 50 or 60 Hz",
+        "  in mains   2: balls may pass the inner race at a multiple of 50 or 60 Hz",
     )
     for found in (facts, (RecordFacts(),) * 3):
         tested = replace(tested, facts=found)

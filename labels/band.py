@@ -18,7 +18,8 @@ def components_in(band: Band, samples: int, rate: float) -> slice:
     low, high = band
     if not 0.0 <= low < high <= rate / 2.0 < math.inf:
         raise ValueError(f"band {low:g} to {high:g} Hz; allowed: 0 <= low < high <= {rate / 2.0:g} Hz (half the rate)")
-    frequency = np.fft.rfftfreq(samples, 1.0 / rate)
+    # Multiplied first, a frequency is that of the band's edge wherever both can be written: rfftfreq rounds twice.
+    frequency = np.arange(samples // 2 + 1) * rate / samples
     first, end = np.searchsorted(frequency, low, side="left"), np.searchsorted(frequency, high, side="right")
     return slice(int(first), int(end))
 
@@ -29,6 +30,6 @@ def holds_a_line(band: Band, samples: int, rate: float) -> bool:
     A band at least rate / samples wide, the distance of the components, always holds one.
     """
     low, high = band
-    spacing = 1.0 / (samples * (1.0 / rate))  # rounded as numpy rounds the frequencies of `components_in`
-    first = max(math.ceil(low / spacing) - 1, 1)
-    return any(low <= line * spacing <= high for line in range(first, min(first + 2, samples // 2) + 1))
+    first = max(math.ceil(low * samples / rate) - 1, 1)
+    # As `components_in` rounds.
+    return any(low <= line * rate / samples <= high for line in range(first, min(first + 2, samples // 2) + 1))

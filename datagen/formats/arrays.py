@@ -105,8 +105,22 @@ def choose(arrays: Arrays, wish: str, path: Path, field: str) -> NDArray[Any]:
         return np.asarray(found[tuple(_place(part) for part in places.split(","))])
     except (IndexError, ValueError):
         shape = "x".join(map(str, found.shape))
-        problem, allowed = f"{name} is an array of {shape} numbers", 'as in "NAME[:,0]" or "NAME[0,2]"'
-        raise BadInput(problem, file=str(path), field=field, value=wish, allowed=allowed) from None
+        problem = f"{name} is an array of {shape} numbers"
+        raise BadInput(
+            problem, file=str(path), field=field, value=wish, allowed=_places_in(name, found.shape)
+        ) from None
+
+
+def _places_in(name: str, shape: tuple[int, ...]) -> str:
+    """What may be asked for of an array of this `shape`: one place along one dimension, all along the others."""
+    lines = []
+    for dimension, count in enumerate(shape):
+        first, last = (
+            ",".join(str(place) if other == dimension else ":" for other in range(len(shape)))
+            for place in (0, count - 1)
+        )
+        lines.append(f"{name}[{first}] to {name}[{last}]")
+    return f"{', '.join([name, *lines])}; from_s and to_s take a stretch"
 
 
 def chosen(arrays: Arrays, wish: str, path: Path, field: str) -> tuple[str, str | None]:

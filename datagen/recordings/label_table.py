@@ -73,6 +73,9 @@ def _parts_heads(path: Path, sign: str) -> bool:
 def _check_header(header: list[str], note_columns: tuple[str, ...], place: str) -> None:
     known = (FILE_COLUMN, *SETTINGS, *note_columns)
     for column in header:
+        if column in NOT_COLUMNS:
+            allowed = "stated in [defaults], in a [[recording]] or in an override"
+            raise BadInput("a label table cannot set this", file=place, field=column, allowed=allowed)
         if column not in known:
             hint = f"unknown column{suggestion(column, known)}; list it in note_columns to keep it as a note"
             raise BadInput(hint, file=place, field=column, allowed=", ".join(known))

@@ -39,6 +39,15 @@ def test_what_lies_outside_the_band_does_not_touch_the_envelope():
     )
 
 
+@pytest.mark.parametrize(("rate", "samples"), [(20_480.0, 6144), (25_600.0, 7680), (100_000.0, 30_000)])
+def test_a_component_at_a_round_edge_is_kept_however_its_frequency_is_rounded(rate, samples):
+    for edge in range(500, 10_000, 500):
+        tone = np.cos(2.0 * np.pi * edge * np.arange(samples) / rate)
+        for band in ((edge, edge + 100.0), (edge - 100.0, edge)):
+            np.testing.assert_allclose(band_envelope(tone, rate, band), 1.0, atol=1e-9)
+            assert holds_a_line((edge, edge + 1e-9) if band[0] == edge else (edge - 1e-9, edge), samples, rate)
+
+
 def test_components_on_both_edges_of_the_band_are_kept():
     tones = np.cos(2.0 * np.pi * BAND[0] * TIME) + np.cos(2.0 * np.pi * BAND[1] * TIME)
     assert np.allclose(

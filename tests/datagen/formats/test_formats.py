@@ -159,7 +159,9 @@ def test_an_absent_variable_is_refused_with_the_names_that_are_there() -> None:
         NoVariable, match=r'99\.mat: y = "X099_FE": .*did you mean "X099_DE"\?; allowed: X099RPM, X099_DE'
     ):
         chosen({"X099_DE": np.zeros(3), "X099RPM": np.zeros(1)}, "X{number:03}_FE", Path("99.mat"), "y")
-    with pytest.raises(BadInput, match=r'y = "a\[:,3\]": a is an array of 4x2 numbers'):
+    with pytest.raises(
+        BadInput, match=r'y = "a\[:,3\]": a is an array of 4x2 numbers; allowed: a, a\[0,:\] to a\[3,:\], a\[:,0\]'
+    ):
         choose({"a": np.zeros((4, 2))}, "a[:,3]", Path("a.npy"), "y")
 
 

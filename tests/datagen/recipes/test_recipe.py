@@ -142,7 +142,7 @@ def test_a_negative_depth_is_refused_with_file_line_field_value_and_range(tmp_pa
         ("depth_um = 12", "depht_um = 12", "part[1].defect.depht_um", 'did you mean "depth_um"?'),
         ("depth_um = 12", 'depth_um = "deep"', "part[1].defect.depth_um", "a number from 0 to 10000"),
         ("depth_um = 12", "depth_um = true", "part[1].defect.depth_um", "a number from 0 to 10000"),
-        ("depth_um = 12", "", "part[1].defect.depth_um", "has no depth"),
+        ("depth_um = 12", "", "part[1].defect.depth_um", "has no depth; allowed: a number from 0 to 10000"),
         ("depth_um = 12", "depth_um = 0", "part[1].defect.depth_um", "neither depth nor roughness"),
         ("depth_um = 12", "depth_um = 0\nroughness_um = 0", "part[1].defect.depth_um", "or a roughness_um above 0"),
         ("extent_deg = 2", "extent_deg = 0", "part[1].defect.extent_deg", "a number above 0 to 180"),

@@ -461,7 +461,9 @@ def test_settings_that_are_no_single_cell_are_no_columns_of_a_label_table(
 ) -> None:
     mat("a.mat")
     (tmp_path / "t.csv").write_text(f"file,{column}\na.mat,\n")
-    assert f"t.csv, line 1: {column}: unknown column" in refusal(bring, GOOD + 'table = "t.csv"\n', tmp_path)
+    assert f"t.csv, line 1: {column}: a label table cannot set this; allowed: stated in [defaults]" in refusal(
+        bring, GOOD + 'table = "t.csv"\n', tmp_path
+    )
 
 
 def test_four_figures_before_a_comma_are_no_thousands(bring: Bring, mat: Mat, tmp_path: Path) -> None:

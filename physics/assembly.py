@@ -44,7 +44,7 @@ def assemble(scene: Scene) -> Contacts:
         stiffness=bearing.radial_load_deflection,
         exponent=bearing.exponent,
         damping=rig.radial_film_damping,
-        no_tension=scene.contact_law == "no_tension",
+        no_tension=scene.no_tension,
     )
     return Contacts(_balls(scene), np.zeros((len(scene.cages), FRAME_COLUMNS)), law, _track(scene))
 

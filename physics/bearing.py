@@ -8,7 +8,7 @@ from typing import TypeVar
 
 from physics.arrays import Array
 from physics.checks import require, require_between, require_count, require_finite, require_one_of, require_positive
-from physics.orders import ball_spin_order, cage_order, inner_pass_order, outer_pass_order
+from physics.orders import ball_spin_order, cage_order, diameter_ratio_of, inner_pass_order, outer_pass_order
 
 Force = TypeVar("Force", float, Array)
 
@@ -97,7 +97,7 @@ class Bearing:
     @property
     def diameter_ratio(self) -> float:
         """Db cos α / Dp, dimensionless."""
-        return self.ball_diameter * math.cos(self.contact_angle) / self.pitch_diameter
+        return diameter_ratio_of(self.pitch_diameter, self.ball_diameter, self.contact_angle)
 
     @property
     def radial_load_deflection(self) -> float:

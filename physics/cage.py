@@ -22,7 +22,7 @@ from physics.checks import (
 from physics.crossing import crossing_times
 
 KNOTS_PER_CORRELATION_TIME = 4
-MOST_KNOTS = 10_000_000  # a tenth of a gigabyte and some seconds of work
+MOST_KNOTS = 10_000_000  # about two gigabytes and half a minute of work
 LARGEST_SLIP = 0.5
 INTERPOLATION_RULE = (
     "slip s(t) is the natural cubic spline through the knots (scipy.interpolate.CubicSpline(t, s, bc_type='natural')); "

@@ -90,6 +90,21 @@ def relative_acceleration(motion: MotionModel, state: Array, axis: int, load: fl
     return (load - force) / motion.inner_mass - outer_ring_acceleration(motion, state, axis, force)
 
 
+def axis_matrix(motion: MotionModel, axis: int, k: float, c: float) -> list[list[float]]:
+    """A (6, 6) of (xi, vi, xo, vo, xr, vr) along one axis, contacts replaced by spring and damper [P14 Eq. 11-16]."""
+    mi, mo, mr = motion.inner_mass, motion.outer_mass, motion.resonator_mass
+    kr, cr = motion.resonator_stiffness, motion.resonator_damping
+    ko, co = float(motion.support_stiffness[axis]), float(motion.support_damping[axis])
+    return [
+        [0.0, 1.0, 0.0, 0.0, 0.0, 0.0],
+        [-k / mi, -c / mi, k / mi, c / mi, 0.0, 0.0],
+        [0.0, 0.0, 0.0, 1.0, 0.0, 0.0],
+        [k / mo, c / mo, -(k + ko + kr) / mo, -(c + co + cr) / mo, kr / mo, cr / mo],
+        [0.0, 0.0, 0.0, 0.0, 0.0, 1.0],
+        [0.0, 0.0, kr / mr, cr / mr, -kr / mr, -cr / mr],
+    ]
+
+
 def starting_state(motion: MotionModel, displacement: Array) -> Array:
     """State (12,) at rest in quasi-static equilibrium, for inner relative to outer displacement (2,) m at t = 0."""
     state = np.zeros(12)

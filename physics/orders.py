@@ -5,6 +5,13 @@
 
 from __future__ import annotations
 
+import math
+
+
+def diameter_ratio_of(pitch_diameter: float, ball_diameter: float, contact_angle: float) -> float:
+    """Db cos α / Dp of the diameters (m) and the angle (rad)."""
+    return ball_diameter * math.cos(contact_angle) / pitch_diameter
+
 
 def cage_order(diameter_ratio: float) -> float:
     """Turns of the cage (FTF) [P14 Eq. 1]."""

@@ -61,6 +61,11 @@ class Scene:
             "ball_deviation",
         )
 
+    @property
+    def no_tension(self) -> bool:
+        """True if no contact force ever pulls."""
+        return self.contact_law == "no_tension"
+
     def _check_spall(self, spall: Spall) -> None:
         bearing = self.rig.bearing
         require(

@@ -92,7 +92,8 @@ class Trace:
     `outer`: the outer ring's motion at a whole multiple of `rate`, or None if not asked for. Where the multiple is
     above 1 it goes on behind the last sample, for as long as the low-pass to `rate` looks ahead, 24 samples of it.
     `error_estimate` is the estimated RMS error of the acceleration relative to its RMS, of fixed steps by how far a
-    response at half the step, or an even finer one, is apart; NaN if it was not estimated.
+    response at half the step, or an even finer one, is apart, over the whole march and before its rate is lowered; NaN
+    if it was not estimated.
     `sensitivity` says how many times the errors of its steps a short pilot was wrong by; NaN if that was not measured.
     `chaotic`: errors grow faster than shorter steps could reduce them, so compare spectra, not samples.
     `silent`: the response is so small (physics/response/silence.py) that it may be rounding alone.

@@ -73,7 +73,7 @@ def liveness(analysis: Analysis, signal: Array, step: float) -> Liveness:
 
 
 def recorder_step(signal: Array) -> float:
-    """Smallest difference between two values of a `signal` (T,) as it was recorded: mending it leaves no step.
+    """Smallest difference between two values of a `signal` (T,) as it was recorded; what was mended has no step.
 
     Infinite if all are the same.
     """

@@ -7,6 +7,8 @@ from numpy.typing import NDArray
 
 from physics.arrays import Array
 
+BINS = 10
+
 
 def equal_priors(positive: NDArray[np.bool_]) -> Array:
     """Weights (N,) that give the `positive` (N,) records the same total weight as the others; they sum to N if there
@@ -17,9 +19,9 @@ def equal_priors(positive: NDArray[np.bool_]) -> Array:
 
 
 def reliability(
-    positive: NDArray[np.bool_], probability: Array, weights: Array | None = None, bins: int = 10
+    positive: NDArray[np.bool_], probability: Array, weights: Array | None = None
 ) -> dict[str, list[float]]:
-    """The reliability diagram of predicted probabilities (N,) in so many equal `bins`, a list with a value per bin.
+    """The reliability diagram of predicted probabilities (N,) in ten equal bins, a list with a value per bin.
 
     `predicted` is the mean probability of the bin's records, `observed` the share of them that are `positive` (N,),
     `records` their number and `weight` their total weight; empty bins are left out. `weights` (N,) are those of the
@@ -27,8 +29,8 @@ def reliability(
     """
     positive, probability = np.asarray(positive, dtype=bool), np.asarray(probability)
     weights = np.ones(probability.size) if weights is None else np.asarray(weights)
-    place = np.minimum((probability * bins).astype(np.int64), bins - 1)
-    used = [place == bin_ for bin_ in range(bins) if (place == bin_).any()]
+    place = np.minimum((probability * BINS).astype(np.int64), BINS - 1)
+    used = [place == bin_ for bin_ in range(BINS) if (place == bin_).any()]
     return {
         "predicted": [float(np.average(probability[rows], weights=weights[rows])) for rows in used],
         "observed": [float(np.average(positive[rows], weights=weights[rows])) for rows in used],

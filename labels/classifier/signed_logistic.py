@@ -12,6 +12,7 @@ from sklearn.base import BaseEstimator, ClassifierMixin
 from sklearn.exceptions import ConvergenceWarning
 
 from labels.classifier.log_odds import probability_of
+from labels.classifier.reliability import equal_priors
 from physics.arrays import Array
 
 MOST_STEPS = 2000
@@ -34,7 +35,7 @@ class SignedLogistic(ClassifierMixin, BaseEstimator):
         table = np.column_stack([np.asarray(X, dtype=np.float64), np.ones(len(X))])
         self.classes_, place = np.unique(y, return_inverse=True)
         side = np.where(place == 1, 1.0, -1.0)
-        weight = 0.5 * len(side) / np.maximum(np.bincount(place), 1)[place]
+        weight = equal_priors(place == 1)
 
         def loss(coefficients: Array) -> tuple[float, Array]:
             margin = side * (table @ coefficients)

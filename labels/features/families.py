@@ -80,7 +80,7 @@ def find_family(
     """
 
     def at_width(width: float) -> Family:
-        grid = _grid(centre, tolerance, max(lines.step, width * shaft_hz), harmonics)
+        grid = fundamentals(centre, tolerance, max(lines.step, width * shaft_hz), harmonics)
         parts = harmonic_evidence(lines, grid, shaft_hz, width, harmonics)
         places = max(1.0, 2.0 * tolerance * centre * harmonics / max(lines.step, width * shaft_hz))
         doubt = np.log(places) + 0.5 * ((grid / centre - 1.0) / prior) ** 2
@@ -90,9 +90,13 @@ def find_family(
     return reduce(_stronger, map(at_width, WIDTHS))
 
 
-def _grid(centre: float, tolerance: float, width: float, harmonics: int) -> Array:
+def fundamentals(
+    centre: float, tolerance: float, width: float, harmonics: int, *, fewest: int = 5, most: int = 400
+) -> Array:
+    """The fundamentals (G,) to try within `tolerance` (a share) of `centre` (Hz), of which the highest of so many
+    `harmonics` lie `width` (Hz) apart; no fewer and no more than said."""
     count = int(np.ceil(2.0 * tolerance * centre * harmonics / width)) + 1
-    return centre * np.linspace(1.0 - tolerance, 1.0 + tolerance, max(5, min(count, 400)))
+    return centre * np.linspace(1.0 - tolerance, 1.0 + tolerance, max(fewest, min(count, most)))
 
 
 def _at(total: Array, parts: Array, grid: Array) -> Family:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from physics.bearing import RACES
 from physics.checks import require_one_of
-from physics.orders import ball_spin_order, cage_order, inner_pass_order, outer_pass_order
+from physics.orders import ball_spin_order, cage_order, diameter_ratio_of, inner_pass_order, outer_pass_order
 
 # Shares by which the cage's slip moves a family at most, and usually.
 SLIP_TOLERANCE, SLIP_PRIOR = 0.025, 0.012
@@ -78,6 +78,6 @@ def bearing_kinematics(
         raise ValueError(f"balls = {balls}; allowed: whole numbers")
     if not 0.0 < ball_diameter < pitch_diameter:
         raise ValueError(f"ball_diameter = {ball_diameter} m; allowed: above 0 and below pitch_diameter")
-    ratio = ball_diameter * math.cos(contact_angle) / pitch_diameter
+    ratio = diameter_ratio_of(pitch_diameter, ball_diameter, contact_angle)
     spin = ball_spin_order(pitch_diameter / ball_diameter, ratio)
     return Kinematics(int(balls), ratio, spin, shaft_hz)

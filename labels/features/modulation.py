@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from labels.features.analysis import Analysis
-from labels.features.families import find_family, sideband_evidence
+from labels.features.families import find_family, fundamentals, sideband_evidence
 from labels.features.feature import Feature
 from labels.features.lines import Lines
 from physics.arrays import Array
@@ -112,8 +112,7 @@ def line_strength(lines: Lines, centre: float, tolerance: float) -> float:
     The lines share a fundamental within `tolerance` (a share) of `centre` (Hz); each is read at the resolution of the
     whole record.
     """
-    count = int(np.ceil(2.0 * tolerance * centre * STRENGTH_HARMONICS / (0.5 * lines.step))) + 1
-    grid = centre * np.linspace(1.0 - tolerance, 1.0 + tolerance, max(9, min(count, 1200)))
+    grid = fundamentals(centre, tolerance, 0.5 * lines.step, STRENGTH_HARMONICS, fewest=9, most=1200)
     order = np.arange(1.0, STRENGTH_HARMONICS + 1.0)
     means = lines.means(order[:, None] * grid, np.full(STRENGTH_HARMONICS, lines.narrowest))
     # Means are differences of running sums: rounding can leave one below zero where a band is silent.

@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 
 from physics.angular_speed import in_hertz
-from physics.catalog.bearings import CWRU, IMS, MFPT, PAPER_FAN, PAPER_GEARBOX
+from physics.catalog.bearings import CWRU, IMS, MFPT, PAPER_FAN, PAPER_FAN_TABLE, PAPER_GEARBOX, PAPER_GEARBOX_TABLE
 from physics.catalog.sourced import Claim
 from physics.hertz import contact_width, hertz_load_deflection
 from physics.rig import Rig
 
 PAPER_MODEL = "Petersen et al. 2014, section 5.2"
+PAPER_MODES = "Petersen et al. 2014, section 6.2"
 PAPER_RESPONSE = "Petersen et al. 2014, section 5.6"
 
 
@@ -76,7 +77,7 @@ GEARBOX_CLAIMS = (
         "load_deflection",
         "5157e6",
         "N/m^1.5",
-        "Petersen et al. 2014, Table 1",
+        PAPER_GEARBOX_TABLE,
         hertz_factor,
         "from geometry with a spherical outer raceway and inner conformity 0.52; we keep the printed one",
     ),
@@ -107,14 +108,14 @@ FAN_CLAIMS = (
         PAPER_FAN,
         lambda rig: math.degrees(1.2e-3 / rig.bearing.raceway_radius("outer")),
     ),
-    Claim("lower mode along y", "0.90e3", "Hz", "Petersen et al. 2014, section 6.2", lambda rig: mode_hz(rig, 2)),
-    Claim("upper mode along y", "1.99e3", "Hz", "Petersen et al. 2014, section 6.2", lambda rig: mode_hz(rig, 4)),
+    Claim("lower mode along y", "0.90e3", "Hz", PAPER_MODES, lambda rig: mode_hz(rig, 2)),
+    Claim("upper mode along y", "1.99e3", "Hz", PAPER_MODES, lambda rig: mode_hz(rig, 4)),
     Claim("resonator_frequency", "9.7e3", "Hz", PAPER_FAN, resonator_alone_hz, "the resonator alone"),
     Claim(
         "resonance in the response",
         "9.7e3",
         "Hz",
-        "Petersen et al. 2014, section 6.2",
+        PAPER_MODES,
         coupled_resonator_hz,
         "coupled to the outer ring: inside the printed demodulation band of 9.2 to 10.2 kHz",
     ),
@@ -123,7 +124,7 @@ FAN_CLAIMS = (
         "load_deflection",
         "10.1e9",
         "N/m^1.5",
-        "Petersen et al. 2014, Table 2",
+        PAPER_FAN_TABLE,
         hertz_factor,
         "from geometry with a spherical outer raceway; a groove of 0.52 comes nearer; we keep the printed one",
     ),

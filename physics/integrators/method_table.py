@@ -30,7 +30,8 @@ class Limits(NamedTuple):
     damped: tuple[tuple[float, float], ...]
 
 
-# Where the largest eigenvalue of the method's amplification matrix over one step reaches 1; these matrices are in
+# Where the largest eigenvalue of the method's amplification matrix over one step reaches 1, or a little less; these
+# matrices are in
 # tests/physics/integrators/test_stability_limits.py. Limits rise with a little damping and fall again towards the
 # aperiodic case. An undamped mode under the Adams methods of order 3 and 4 grows at any step; up to their limit by less
 # than 1 % in 65 536 steps.

@@ -14,7 +14,7 @@ import numpy as np
 
 from physics._jit import njit, njit_inner
 from physics.arrays import Array
-from physics.motion import MotionModel
+from physics.motion import MotionModel, axis_matrix
 
 SERIES_TOLERANCE = 1e-18
 MODELS_KEPT = 8
@@ -46,17 +46,7 @@ WEIGHT_ROWS = 13
 
 def linear_matrix(motion: MotionModel, axis: int) -> Array:
     """L (4, 4) of (xo, vo, xr, vr) along one axis [P14 Eq. 13-15]."""
-    mo, mr = motion.outer_mass, motion.resonator_mass
-    kr, cr = motion.resonator_stiffness, motion.resonator_damping
-    ko, co = float(motion.support_stiffness[axis]), float(motion.support_damping[axis])
-    return np.array(
-        [
-            [0.0, 1.0, 0.0, 0.0],
-            [-(ko + kr) / mo, -(co + cr) / mo, kr / mo, cr / mo],
-            [0.0, 0.0, 0.0, 1.0],
-            [kr / mr, cr / mr, -kr / mr, -cr / mr],
-        ]
-    )
+    return np.array(axis_matrix(motion, axis, 0.0, 0.0))[2:, 2:]
 
 
 def reach(motion: MotionModel, step: float) -> float:

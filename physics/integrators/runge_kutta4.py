@@ -1,6 +1,6 @@
 """The classical explicit Runge-Kutta method of order 4: four contact sums a step, every coordinate treated alike.
 
-Stable up to |λ| h = 2.61 to 2.96 of the fastest mode of all, the resonator's included: 2.83 undamped, 2.96 at 0.14 of
+Stable up to |λ| h = 2.61 to 2.96 of the fastest mode of all, the resonator's included: 2.82 undamped, 2.96 at 0.14 of
 critical damping, 2.62 at half of it, 2.785 for pure decay.
 Order 4 while the contact set does not change, which the marching loop ensures. Not to be confused with
 the same method run blindly through changes of contact, which drops to first order.

@@ -32,6 +32,6 @@ class Trial(NamedTuple):
 
 @njit_inline
 def take_over(now: Array, then: Array) -> None:
-    """Make `now` (n,) the first n of `then`. A slice set to another brings along code that words why it can not."""
+    """Make `now` (n,) the first n of `then`. A slice set to another would compile a message for unequal sizes."""
     for i in range(now.size):
         now[i] = then[i]

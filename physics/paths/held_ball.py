@@ -53,6 +53,11 @@ class Ball(NamedTuple):
     ball_radius: float
     turn: float
 
+    @property
+    def half_arc(self) -> float:
+        """Half the arc (rad) of the race that the ball covers: no contact lies farther ahead of it."""
+        return math.asin(min(1.0, self.ball_radius / self.race_radius))
+
     def _lever(self, depth: Array, away: Array) -> tuple[Array, Array, Array]:
         """Of contacts with the surface at `depth` (N,), m, that lie `away` (N,), rad, ahead of the ball: the radius of
         the contact, its offset to the side of the ball's centre, and its distance from there along the radius, m."""
@@ -81,7 +86,7 @@ class Ball(NamedTuple):
 
     def away_on(self, depth: Array, steepness: Array) -> Array:
         """How far ahead (N,), rad, it touches a surface at `depth` (N,), m, that is so steep (N,), m/rad, there."""
-        least = np.full(depth.shape, -math.asin(min(1.0, self.ball_radius / self.race_radius)))
+        least = np.full(depth.shape, -self.half_arc)
         most = -least
         for _ in range(AWAY_HALVINGS):
             middle = 0.5 * (least + most)
@@ -110,7 +115,7 @@ class Ball(NamedTuple):
         No more than the arc at which it slips past the edge.
         """
         race_radius, ball_radius = self.race_radius, self.ball_radius
-        furthest = math.asin(min(1.0, ball_radius / race_radius))
+        furthest = self.half_arc
         drop = min(drop, ball_radius + self.turn * race_radius * (1.0 - math.cos(furthest)))
         centre_radius = race_radius + self.turn * (ball_radius - drop)
         half_sine = math.sqrt(drop * (2.0 * ball_radius - drop) / (4.0 * race_radius * centre_radius))

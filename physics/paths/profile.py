@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from functools import lru_cache
+from functools import lru_cache, partial
 from itertools import pairwise
 
 import numpy as np
@@ -21,12 +21,9 @@ from physics.paths.spall_surface import (
     floor_ends,
     gap_surface,
     reaches_floor,
-    roughness_curve,
     table_arcs,
     table_surface,
     turning_points,
-    window,
-    window_slope,
 )
 from physics.scene import Scene
 from physics.spall import Spall
@@ -128,28 +125,23 @@ def wrap(angle: Array) -> Array:
 
 
 def _tukey_path(spall: Spall) -> DepthPath:
-    half = spall.extent / 2.0
-    rough = roughness_curve(spall)
+    half, surface = spall.extent / 2.0, gap_surface(spall)
+    rough = bool(spall.roughness_values)
     edges = _distinct([-half, -half + spall.entry_taper, half - spall.exit_taper, half])
-    cell = math.inf if rough is None else spall.extent / (len(spall.roughness_values) - 1) / CELLS_PER_ROUGHNESS_STEP
+    cell = spall.extent / (len(spall.roughness_values) - 1) / CELLS_PER_ROUGHNESS_STEP if rough else math.inf
     cells = []
     for left, right in pairwise(edges):
         flat = left >= -half + spall.entry_taper and right <= half - spall.exit_taper
         cells.append(max(1 if flat else CELLS_PER_TAPER, math.ceil((right - left) / cell)))
 
-    def depth(arc: Array) -> Array:
-        return spall.depth * window(spall, arc) + (0.0 if rough is None else rough(arc))
-
-    def slope(arc: Array) -> Array:
-        return spall.depth * window_slope(spall, arc) + (0.0 if rough is None else rough(arc, 1))
-
     def of_cells(halvings: int) -> DepthPath:
         finer = [count << halvings for count in cells]
-        bumps = rough is not None
-        return hermite_path(np.array(edges), finer, depth, slope, bridged=False, bumps=bumps, rough=bumps)
+        return hermite_path(
+            np.array(edges), finer, surface, partial(surface, order=1), bridged=False, bumps=rough, rough=rough
+        )
 
     halvings, path = 0, of_cells(0)
-    while rough is not None and halvings < MOST_HALVINGS and _error_between_nodes(path, depth) > ROUGH_ERROR:
+    while rough and halvings < MOST_HALVINGS and _error_between_nodes(path, surface) > ROUGH_ERROR:
         halvings += 1
         path = of_cells(halvings)
     return path
@@ -168,8 +160,7 @@ def _error_between_nodes(path: DepthPath, depth: Curve) -> float:
 def _gap_path(spall: Spall, bearing: Bearing) -> DepthPath:
     """A gap with sharp edges in closed form: the ball hangs on the nearer edge until it reaches the floor."""
     half, ball = spall.extent / 2.0, ball_of(bearing, spall.race)
-    furthest = math.asin(min(1.0, ball.ball_radius / ball.race_radius))
-    bridged = bool(half < furthest and ball.drop_from_edge(np.array(half)) < spall.depth)
+    bridged = bool(half < ball.half_arc and ball.drop_from_edge(np.array(half)) < spall.depth)
     reach = half if bridged else min(half, ball.reach_from_edge(spall.depth))
     edges = np.array(_distinct([-half, -half + reach, half - reach, half]))
     on_floor = np.abs(edges[1:] + edges[:-1]) / 2.0 < half - reach

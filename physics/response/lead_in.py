@@ -78,7 +78,7 @@ def from_start(trace: Trace) -> Trace:
 
 
 def _turned(scene: Scene, race: str, lead_in: float, order: int = 1) -> float:
-    """Phase (rad, −π to π) of a wave of this `order` on a race by which it turns during the lead-in."""
+    """Phase (rad, −π to π) by which a wave of this `order` on a race turns during the lead-in."""
     return math.remainder(order * scene.race_speed(race) * lead_in, math.tau)
 
 

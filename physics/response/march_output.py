@@ -61,7 +61,7 @@ def trace_of(scene: Scene, grid: Grid, output: Output, method: str) -> Trace:
     force = None
     if output.force.shape[0]:
         normal = output.force[:, real] / math.cos(bearing.contact_angle)
-        if scene.contact_law == "no_tension":
+        if scene.no_tension:
             # Inside a step a ball that is just not let go of would pull by as little as the step may be wrong.
             normal = np.maximum(normal, 0.0)
         force = normal.reshape(-1, bearing.rows, bearing.balls)

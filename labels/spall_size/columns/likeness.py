@@ -43,7 +43,8 @@ def measure(view: PairView) -> dict[str, Array]:
 
 
 def _largest_between(mean: MeanPass, start: Array, stop: Array) -> Array:
-    """Log of the largest energy strictly between two offsets (P,), NO_ROOM where no sample lies there."""
+    """Log of the largest energy between two offsets (P,): from the sample at or before `start` up to, but without, the
+    one at or before `stop`; NO_ROOM where there is none."""
     level = np.log(mean.energy[Channel.ALL] + ENERGY_FLOOR)
     found = np.full(start.size, NO_ROOM)
     size, period = level.size, round(mean.period)

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from physics._jit import njit_inline, njit_lean
 from physics.arrays import Array, ComplexArray
 from physics.contact.turning import cosine_sine
-from physics.motion import MotionModel
+from physics.motion import MotionModel, axis_matrix
 
 # Displacement along x and y (m) and velocity along x and y (m/s) of the inner relative to the outer ring.
 Motion = tuple[float, float, float, float]
@@ -69,7 +69,7 @@ def linear_flow(motion: MotionModel, stiffness: tuple[float, float], damping: tu
     """The modes of `motion` with springs `stiffness` (N/m, above zero) and dampers (N s/m) in place of the contacts."""
     table, twist = np.zeros((2 + READINGS, AMPLITUDES)), np.zeros(2 * PAIRS)
     rest, cosine, sine = np.zeros((3, 2, READINGS))
-    matrices = np.array([_matrix(motion, axis, stiffness[axis], damping[axis]) for axis in range(2)])
+    matrices = np.array([axis_matrix(motion, axis, stiffness[axis], damping[axis]) for axis in range(2)])
     fastest = 0.0
     for axis, modes in enumerate(_modes(motion, matrices, stiffness)):
         column = axis * PER_AXIS
@@ -112,21 +112,6 @@ def _read(motion: MotionModel, state: Sequence[complex]) -> list[complex]:
     xi, vi, xo, vo, xr, vr = state
     pull = motion.resonator_stiffness * (xo - xr) + motion.resonator_damping * (vo - vr)
     return [xi - xo, vi - vo, 0.0, pull / motion.resonator_mass, *state, 0.0]
-
-
-def _matrix(motion: MotionModel, axis: int, k: float, c: float) -> list[list[float]]:
-    """A (6, 6) of (xi, vi, xo, vo, xr, vr) along one axis, contacts replaced by spring and damper [P14 Eq. 11-16]."""
-    mi, mo, mr = motion.inner_mass, motion.outer_mass, motion.resonator_mass
-    kr, cr = motion.resonator_stiffness, motion.resonator_damping
-    ko, co = float(motion.support_stiffness[axis]), float(motion.support_damping[axis])
-    return [
-        [0.0, 1.0, 0.0, 0.0, 0.0, 0.0],
-        [-k / mi, -c / mi, k / mi, c / mi, 0.0, 0.0],
-        [0.0, 0.0, 0.0, 1.0, 0.0, 0.0],
-        [k / mo, c / mo, -(k + ko + kr) / mo, -(c + co + cr) / mo, kr / mo, cr / mo],
-        [0.0, 0.0, 0.0, 0.0, 0.0, 1.0],
-        [0.0, 0.0, kr / mr, cr / mr, -kr / mr, -cr / mr],
-    ]
 
 
 def _modes(

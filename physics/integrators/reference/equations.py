@@ -93,7 +93,7 @@ def write_equations(scene: Scene) -> Equations:
             film_damping=float(rig.film_damping),
             cosine_of_contact_angle=math.cos(bearing.contact_angle),
             clearance=float(bearing.clearance),
-            no_tension=scene.contact_law == "no_tension",
+            no_tension=scene.no_tension,
         ),
         loads=Loads(
             static=float(run.load),

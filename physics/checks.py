@@ -10,6 +10,9 @@ from collections.abc import Collection
 from numbers import Integral
 from typing import Any
 
+# Of a resonance, as a share of the critical damping: above 1/√2 nothing stands out of a frequency response.
+HIGHEST_DAMPING = 0.7
+
 
 class InvalidParameter(ValueError):
     """A physical parameter outside its allowed range; `field` names it."""

@@ -9,7 +9,7 @@ from pydantic import Field
 from datagen.distributions.kinds import Distribution, Fixed
 from datagen.recipes.quantities import Frequency
 from datagen.settings.table import Between, Table, Whole
-from physics.sensor.mode import HIGHEST_DAMPING
+from physics.checks import HIGHEST_DAMPING
 from physics.sensor.mounting import HIGHEST_ORDER
 
 MOST_MODES = 50

@@ -11,8 +11,9 @@ from datagen.sizing.committee import Committee, folds
 from datagen.sizing.training_rows import Trial
 from datagen.sizing.trial_columns import TrialColumns
 from labels.spall_size.estimation.calibration import SMALLEST_SPREAD, Guess
-from labels.spall_size.estimation.measurement import leading_order, leading_pairs, measure
+from labels.spall_size.estimation.measurement import leading_pairs, measure
 from labels.spall_size.estimation.trees import Trees
+from labels.spall_size.events.leading import leading_order
 from physics.arrays import Array
 
 Bearings = NDArray[np.str_]

@@ -9,6 +9,7 @@ import numpy as np
 
 from physics.arrays import Array
 from physics.checks import (
+    HIGHEST_DAMPING,
     require,
     require_below_nyquist,
     require_between,
@@ -18,7 +19,6 @@ from physics.checks import (
     settle_tuples,
 )
 from physics.recursive_filter import filtered
-from physics.sensor.mode import HIGHEST_DAMPING
 
 MOST_PER_SECOND = 10_000.0
 # With this spread of the logarithm one knock in six is 148 times the median or higher.

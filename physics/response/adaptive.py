@@ -68,7 +68,7 @@ def _response(goal: Goal, pilot: int) -> tuple[Output, float, float]:
     """The response, its estimated error (m/s², RMS) and its sensitivity."""
     march = goal.begin()
     begun = _beginning(goal, march, pilot)
-    sensitivity, distance, growing = begun.sensitivity, begun.apart, goal.case.memory > 0.0
+    sensitivity, distance, growing = begun.sensitivity, begun.apart, goal.case.error_memory > 0.0
     if growing:
         output, grid = begun.output, goal.aimed(begun.square, AIM, 0.0)
     else:
@@ -118,7 +118,7 @@ class Beginning(NamedTuple):
 def _beginning(goal: Goal, march: March, pilot: int) -> Beginning:
     """Let the `march` begin, beside a coarse one of `pilot` samples."""
     case, short = goal.case, min(goal.samples, pilot)
-    length = goal.samples if case.memory > 0.0 else short
+    length = goal.samples if case.error_memory > 0.0 else short
     size = GUESSED_SHARE * max(abs(case.scene.operation.load), 1e-3) / case.scene.rig.outer_mass
     for _ in range(MOST_GUESSES):
         coarse = March(case, short).go_on(steady(case, short, COARSE, size))
@@ -127,7 +127,7 @@ def _beginning(goal: Goal, march: March, pilot: int) -> Beginning:
             size = found
             break
         size = max(found, SMALLEST_GUESS * size)
-    if case.memory > 0.0:
+    if case.error_memory > 0.0:
         # Made anew, now that the size is known: errors as large from the beginning on show whether they grow.
         coarse = perturbed_response(case, steady(case, length, COARSE, size))
     wanted = AIM * min(max(goal.accuracy, goal.least_error / size), COARSE)

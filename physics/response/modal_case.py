@@ -39,12 +39,12 @@ SMALLEST_STIFFNESS = 1e3
 
 @dataclass(frozen=True)
 class Case:
-    """What every march of a scene from the state `start` (12,) on a grid of `rate` (Hz) has in common; `memory` (s):
-    how long its contacts may make errors grow."""
+    """What every march of a scene from the state `start` (12,) on a grid of `rate` (Hz) has in common; `error_memory`
+    (s): how long its contacts may make errors grow."""
 
     scene: Scene
     flow: LinearFlow
-    memory: float
+    error_memory: float
     contacts: Contacts
     stops: Stops
     start: Array

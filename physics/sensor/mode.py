@@ -14,11 +14,9 @@ from scipy.linalg import expm
 
 from physics._jit import njit, njit_inline
 from physics.arrays import Array
-from physics.checks import require_below_nyquist, require_finite, require_positive, require_up_to
+from physics.checks import HIGHEST_DAMPING, require_below_nyquist, require_finite, require_positive, require_up_to
 from physics.trace import OuterMotion
 
-# Share of the critical damping; above 1/√2 nothing stands out of a frequency response.
-HIGHEST_DAMPING = 0.7
 # Acceleration over one sample interval is a cubic in the share τ of it: coefficients of 1, τ, τ², τ³.
 CUBIC = 4
 

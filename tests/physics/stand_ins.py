@@ -18,7 +18,7 @@ BEARING = SimpleNamespace(rows=2, balls=4, radial_load_deflection=1e3, clearance
 PRELOAD = 8 * 8.0
 
 
-def a_case(memory=0.0):
+def a_case(error_memory=0.0):
     """A push of 1 N s rings like 1 / (0.3 · rate · PUSH²), so that PUSH N s make 1 m/s² at the usual number."""
     ringing = 1.0 / (0.3 * RATE * PUSH**2)
     return SimpleNamespace(
@@ -31,7 +31,7 @@ def a_case(memory=0.0):
         ),
         rate=RATE,
         push=PUSH,
-        memory=memory,
+        error_memory=error_memory,
         pushed=lambda output: math.sqrt(0.5 * ringing * output.spent[0] * RATE / output.acceleration.shape[0]),
     )
 

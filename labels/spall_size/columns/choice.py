@@ -7,10 +7,9 @@ import math
 import numpy as np
 
 from labels.spall_size.columns.rivals import NEAR, SAME
+from labels.spall_size.events.leading import LEADING
 from physics.arrays import Array
 
-# Largest number of leading pairs.
-LEADING = 16
 # Smallest rank that is used as a weight of lags.
 LEAST_RANK = 1e-6
 # Entered as rank of a rival where all leading pairs agree.

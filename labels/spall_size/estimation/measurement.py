@@ -5,19 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from labels.spall_size.columns.choice import LEADING
 from labels.spall_size.columns.table import chosen_row, leading_rows
 from labels.spall_size.events.evidence import Evidence
-from labels.spall_size.events.leading import LeadingView
-from labels.spall_size.events.pairs import Pairs
+from labels.spall_size.events.leading import LeadingView, leading_order
 from labels.spall_size.situation import Situation
 from physics.arrays import Array
-
-# Logarithm of the ratio of two lags above which both may lead: of those that say nearly the same the best stands for
-# all.
-DISTINCT = 0.05
 
 
 @dataclass(frozen=True)
@@ -48,17 +41,6 @@ def leading_pairs(evidence: Evidence, score: Array, situation: Situation) -> Lea
     """At most LEADING pairs of `evidence` by `score` (P,); rows are longer if load and Hertz factor are known."""
     view = LeadingView(evidence, score, situation, leading_order(evidence.pairs, score))
     return LeadingPairs(view.entry, view.exit, view.lag, view.lag_arc, leading_rows(view))
-
-
-def leading_order(pairs: Pairs, score: Array) -> NDArray[np.int64]:
-    """Indices (L,) of the `pairs` of different lags that lead by `score` (P,), the best first."""
-    lag, chosen = np.log(pairs.lag), list[int]()
-    for pair in np.argsort(-score, kind="stable"):
-        if np.all(np.abs(lag[pair] - lag[chosen]) > DISTINCT):
-            chosen.append(int(pair))
-        if len(chosen) == LEADING:
-            break
-    return np.array(chosen)
 
 
 def measure(leading: LeadingPairs, rank: Array) -> Measurement:

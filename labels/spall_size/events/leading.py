@@ -9,8 +9,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from labels.spall_size.events.evidence import Evidence
+from labels.spall_size.events.pairs import Pairs
 from labels.spall_size.situation import Situation
 from physics.arrays import Array
+
+# Largest number of leading pairs.
+LEADING = 16
+# Logarithm of the ratio of two lags above which both may lead: of those that say nearly the same the best stands for
+# all.
+DISTINCT = 0.05
 
 
 @dataclass(frozen=True)
@@ -48,3 +55,14 @@ class LeadingView:
     def features(self) -> Array:
         """What is known (L, F) of these among all pairs, `table.PAIR_COLUMNS`."""
         return self.evidence.pairs.features[self.order].astype(np.float64)
+
+
+def leading_order(pairs: Pairs, score: Array) -> NDArray[np.int64]:
+    """Indices (L,) of the `pairs` of different lags that lead by `score` (P,), the best first."""
+    lag, chosen = np.log(pairs.lag), list[int]()
+    for pair in np.argsort(-score, kind="stable"):
+        if np.all(np.abs(lag[pair] - lag[chosen]) > DISTINCT):
+            chosen.append(int(pair))
+        if len(chosen) == LEADING:
+            break
+    return np.array(chosen)

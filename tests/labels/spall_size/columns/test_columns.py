@@ -6,7 +6,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from labels.spall_size.columns.choice import LEADING
 from labels.spall_size.columns.choice import measure as choose
 from labels.spall_size.columns.table import (
     LEADING_COLUMNS,
@@ -19,7 +18,7 @@ from labels.spall_size.columns.table import (
 )
 from labels.spall_size.estimation.measurement import leading_pairs, measure
 from labels.spall_size.events.evidence import Evidence
-from labels.spall_size.events.leading import LeadingView
+from labels.spall_size.events.leading import LEADING, LeadingView
 from labels.spall_size.events.pairs import Pairs, RecordFacts, all_pairs
 from labels.spall_size.signal.alignment import Alignment
 from labels.spall_size.signal.mean_pass import MeanPass

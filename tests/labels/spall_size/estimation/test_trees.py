@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from sklearn.ensemble import HistGradientBoostingRegressor
 
-from datagen.sizing.committee import mean_of, to_trees
+from datagen.sizing.committee import mean_trees, to_trees
 from labels.spall_size.estimation.trees import Trees
 
 
@@ -24,7 +24,7 @@ def test_the_mean_of_several_trees_is_the_mean_of_what_each_says():
         for seed in range(3)
     ]
     mean = np.mean([model.predict(rows) for model in models], axis=0)
-    assert mean_of([to_trees(model) for model in models]).predict(rows) == pytest.approx(mean, abs=1e-5)  # float32
+    assert mean_trees([to_trees(model) for model in models]).predict(rows) == pytest.approx(mean, abs=1e-5)  # float32
 
 
 def test_trees_come_back_from_their_arrays():

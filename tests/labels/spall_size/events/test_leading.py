@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from labels.spall_size.columns.choice import LEADING
-from labels.spall_size.estimation.measurement import DISTINCT, leading_order
+from labels.spall_size.events.leading import DISTINCT, LEADING, leading_order
 from labels.spall_size.events.pairs import Pairs
 
 

@@ -3,13 +3,15 @@ never rewritten."""
 
 from __future__ import annotations
 
+import errno
 import json
+import os
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
 from datagen.errors import BadInput
-from datagen.files.places import SCORED_RUNS
+from datagen.files.places import SCORED_RUNS, is_writable
 from datagen.files.plain import plain
 from datagen.versions import program_versions
 
@@ -29,23 +31,24 @@ def write_line(folder: Path, said: dict[str, Any]) -> None:
         with log_path(folder).open("a", encoding="utf-8") as file:
             file.write(json.dumps(plain(line), default=str, allow_nan=False) + "\n")
     except OSError as problem:
-        raise _no_log(folder, problem) from None
+        raise _no_log(folder, problem.strerror) from None
 
 
 def require_log(folder: Path) -> None:
     """Raise BadInput unless a line can be appended to the log of a corpus, which is left as it is."""
     path = log_path(folder)
-    is_new = not path.exists()
+    if not path.exists():
+        if not is_writable(folder):
+            raise _no_log(folder, os.strerror(errno.EACCES))
+        return
     try:
         path.open("a").close()
-        if is_new:
-            path.unlink()
     except OSError as problem:
-        raise _no_log(folder, problem) from None
+        raise _no_log(folder, problem.strerror) from None
 
 
-def _no_log(folder: Path, reason: OSError) -> BadInput:
-    problem = f"runs on recordings are logged here, and it cannot be written: {reason.strerror}"
+def _no_log(folder: Path, reason: str | None) -> BadInput:
+    problem = f"runs on recordings are logged here, and it cannot be written: {reason}"
     return BadInput(
         problem, file=str(log_path(folder)), allowed="a corpus that can be written to, such as a copy of it"
     )

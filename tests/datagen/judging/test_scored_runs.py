@@ -47,6 +47,12 @@ def test_a_log_that_cannot_be_written_is_told_with_the_cause(tmp_path):
         require_log(tmp_path)
 
 
+def test_a_log_that_cannot_be_made_is_told_before_anything_is_scored(tmp_path, monkeypatch):
+    monkeypatch.setattr("datagen.judging.scored_runs.is_writable", lambda folder: folder != tmp_path)
+    with pytest.raises(BadInput, match=r"it cannot be written: Permission denied; allowed: a corpus"):
+        require_log(tmp_path)
+
+
 def test_asking_for_a_log_leaves_it_as_it_is(tmp_path):
     require_log(tmp_path)
     assert list(tmp_path.iterdir()) == []

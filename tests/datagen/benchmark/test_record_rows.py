@@ -351,6 +351,22 @@ def test_components_of_windows_are_too_far_apart_to_tell_mains_where_these_are_s
     assert record_rows(signal, labels(speed_rpm=3010.0), Reading(window=0.5)).facts.in_mains == ()
 
 
+def test_copies_with_noise_have_no_steps_of_the_recorder(monkeypatch):
+    steps = []
+
+    def listening(analysis, piece, step):
+        steps.append(step)
+        return liveness(analysis, piece, step)
+
+    monkeypatch.setattr("datagen.benchmark.record_rows.liveness", listening)
+    coarse = np.round(shaking(3000)[:, 0], 1)
+    reading = Reading(copies_db=(12.0, 12.0))
+    signal_rows(coarse, RATE, known_kinematics(labels()), reading, [1], step=0.1)
+    assert steps[0] == 0.1
+    assert len(steps) == reading.copies
+    assert max(steps[1:]) < 1e-3
+
+
 def test_a_dead_axis_stays_dead_whatever_noise_is_added():
     three_values = np.random.default_rng(1).integers(0, 3, 3000).astype(float)
     assert signal_rows(three_values, RATE, known_kinematics(labels()), Reading(noise_db=0.0), [0]) == []

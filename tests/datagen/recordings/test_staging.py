@@ -221,3 +221,13 @@ def test_a_folder_of_the_longest_name_is_filled(tmp_path: Path, name: str) -> No
         (staging / "shards" / "one").write_text("filled")
     assert (tmp_path / name / "shards" / "one").read_text() == "filled"
     assert [path.name for path in tmp_path.iterdir()] == [name]
+
+
+def test_the_name_of_a_filled_folder_is_brought_to_the_disk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    synced: list[tuple[Path, bool]] = []
+    monkeypatch.setattr(
+        "datagen.recordings.staging.sync_folder", lambda place: synced.append((place, (place / "corpus").exists()))
+    )
+    with staged(tmp_path / "corpus"):
+        pass
+    assert synced == [(tmp_path, True)]

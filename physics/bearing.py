@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
-from physics.arrays import Array
 from physics.checks import require, require_between, require_count, require_finite, require_one_of, require_positive
 from physics.orders import ball_spin_order, cage_order, diameter_ratio_of, inner_pass_order, outer_pass_order
 
-Force = TypeVar("Force", float, Array)
+if TYPE_CHECKING:
+    from physics.arrays import Array
+
+Force = TypeVar("Force", float, "Array")
 
 RACES = ("outer", "inner")
 DEFAULT_CONFORMITY = 0.52

@@ -316,12 +316,11 @@ def test_results_replace_earlier_ones_and_no_file_of_another_kind(tmp_path: Path
     code, _, message = run("catalog", "--json", recorded)
     assert code == 2
     assert f'--json = "{recorded}": this file holds something else than JSON, which would be lost' in message
+    assert recorded.read_text() == "0.1,0.2\n"
     for text in ('[project]\nname = "mine"\n', '{"half": 1', "3\n"):
         recorded.write_text(text)
         assert run("catalog", "--json", recorded).exit_code == 2
         assert recorded.read_text() == text
-    recorded.write_text("0.1,0.2\n")
-    assert recorded.read_text() == "0.1,0.2\n"
     for _ in range(2):  # first of an empty file
         assert run("catalog", "--json", results).exit_code == 0
         assert json.loads(results.read_text())

@@ -16,5 +16,5 @@ def test_charts_of_different_machines_are_refused():
 @pytest.mark.parametrize("table", [speeds, accuracies, simpler])
 def test_the_page_holds_the_tables_of_the_charts_beside_it(table):
     charts = {name: json.loads((CHARTS / f"{name}.json").read_text(encoding="utf-8")) for name in SCENES}
-    lines = "\n".join(table(charts))
+    lines = table(charts)
     assert f"-->\n{lines}\n<!--" in PAGE.read_text(encoding="utf-8")

@@ -10,7 +10,7 @@ from datagen.errors import BadInput
 
 
 def test_two_corpora_of_one_name_are_refused_before_anything_is_learned(tmp_path):
-    with pytest.raises(BadInput, match="corpus"):
+    with pytest.raises(BadInput, match="several folders are called so"):
         make_draws.main(tmp_path / "train", tmp_path / "draws.json", [Path("a/corpus"), Path("b/corpus")])
     assert list(tmp_path.iterdir()) == []
 

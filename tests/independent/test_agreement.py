@@ -181,7 +181,7 @@ def test_the_catalogue_s_rigs_are_those_typed_from_the_paper(name, typed):
 
 
 @pytest.mark.parametrize("name", REFERENCE_SCENES)
-def test_the_reference_scenes_are_those_typed_from_the_paper(name):
+def test_the_reference_scenes_are_those_typed_a_second_time(name):
     built, typed = reference_scene(name), reference_scene_json(name)
     fields = {"phi_f": "angle", "extent": "extent", "depth": "depth", "roughness": "roughness", "row": "row"} | {
         edge: edge for edge in ("entry_taper", "exit_taper")

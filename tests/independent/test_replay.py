@@ -61,12 +61,12 @@ def deep_gap(race, extent, machine_name):
     return path
 
 
-def test_the_script_imports_nothing_but_the_standard_library_numpy_scipy_and_numba():
-    for name in ("replay", "reference_scenes"):
+def test_the_scripts_import_nothing_but_the_standard_library_numpy_scipy_and_numba():
+    for name in ("replay", "reference_scenes", "sensor"):
         tree = ast.parse(Path(script.__file__).with_name(f"{name}.py").read_text(encoding="utf-8"))
         imported = {node.module.split(".")[0] for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)}
         imported |= {alias.name.split(".")[0] for n in ast.walk(tree) if isinstance(n, ast.Import) for alias in n.names}
-        assert imported - set(sys.stdlib_module_names) <= {"numpy", "scipy", "numba"}
+        assert imported - set(sys.stdlib_module_names) <= {"numpy", "scipy", "numba", "replay"}
 
 
 @pytest.mark.slow

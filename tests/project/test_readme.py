@@ -31,5 +31,6 @@ def test_every_module_picture_page_and_heading_that_a_page_names_exists(page):
         assert (page.parent / target).exists(), target
     for target, anchor in re.findall(r"\]\(([^)#:]*)#([^)]+)\)", text):
         aimed_at = page.parent / target if target else page
-        headings = re.findall(r"^#+ (.*)$", aimed_at.read_text(encoding="utf-8"), re.MULTILINE)
+        prose = re.sub(r"^```.*?^```$", "", aimed_at.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
+        headings = re.findall(r"^#+ (.*)$", prose, re.MULTILINE)
         assert anchor in [re.sub(r"[^\w -]", "", one.lower()).replace(" ", "-") for one in headings], anchor

@@ -209,8 +209,8 @@ LABELS: tuple[Label, ...] = (
         "run",
         "Estimated RMS error of the clean acceleration over its RMS; where errors below the noise are allowed it is a "
         "bound, which a quiet signal is far below. Against this program's own paths and rounding: where contacts "
-        "multiply errors, which `validity` says where it was seen at the accuracy asked for, other programs' rounding "
-        "leads elsewhere.",
+        "multiply errors, which `validity` says where this record showed it, other programs' rounding leads "
+        "elsewhere.",
         "the error was not estimated",
     ),
     _number(

@@ -24,7 +24,9 @@ def chart(
     record: Annotated[
         int | None, typer.Option(metavar="N", help="Number of the record, if a recipe is given. [default: 0]")
     ] = None,
-    quick: Annotated[bool, typer.Option("--quick", help="Few settings, 0.2 s of signal, no slow reference.")] = False,
+    quick: Annotated[
+        bool, typer.Option("--quick", help="Few settings, 0.2 s of signal, no slow reference: one or two minutes.")
+    ] = False,
     rounds: Annotated[
         int,
         typer.Option(

@@ -70,7 +70,7 @@ def _lost(files: dict[str, int]) -> str:
     """Shards that cannot be read, the first three by name, with how many records they have."""
     names = list(files)
     said = ", ".join(names[:3]) + (f" and {len(names) - 3} more" if len(names) > 3 else "")
-    return f"{said}, with {sum(files.values())} records, which all other numbers here still count"
+    return f"{said}, with {counted(sum(files.values()), 'record')}, which all other numbers here still count"
 
 
 def _counts(info: Info) -> Table:

@@ -118,7 +118,7 @@ def read_manifest(folder: Path) -> Manifest:
     it is damaged."""
     path = manifest_path(folder)
     try:
-        found = json.loads(path.read_bytes())
+        found = json.loads(path.read_text(encoding="utf-8"))
         manifest = Manifest(
             name=text(found["name"]),
             identity=row(Identity, found["identity"]),
@@ -147,7 +147,7 @@ def read_manifest(folder: Path) -> Manifest:
 def stated_records(folder: Path) -> object:
     """The number of records that the readable manifest of the corpus `folder` states for people and for programs of
     others, None if it states none; `Manifest.records` counts them instead."""
-    stated: object = json.loads(manifest_path(folder).read_bytes()).get("records")
+    stated: object = json.loads(manifest_path(folder).read_text(encoding="utf-8")).get("records")
     return stated
 
 

@@ -112,7 +112,7 @@ def label_columns(dataset: xarray.Dataset) -> dict[str, list[Any]]:
 def read_sidecar(path: Path) -> Sidecar | None:
     """The sidecar at `path`, or None if it is absent or not one."""
     try:
-        found = json.loads(path.read_bytes())
+        found = json.loads(path.read_text(encoding="utf-8"))
         identity, records = row(Identity, found["identity"]), tuple(whole(record) for record in found["records"])
         return Sidecar(
             shard=whole(found["shard"]),

@@ -74,7 +74,7 @@ def read_parts(folder: Path, manifest: Manifest) -> tuple[CorpusParts, Findings]
     known = {_name(path, folder) for path in finished}
     listed = {entry.file for entry in manifest.shards}
     unlisted = frozenset(known - listed)
-    found = of_index + Findings(tuple(of_recipe)) + of_sidecars
+    found = of_index + Findings(tuple(of_recipe), unfinished=bool(of_recipe)) + of_sidecars
     found += _without_sidecar(folder, finished) + _not_listed(unlisted)
     missing = tuple(f"{name}: missing, but listed in manifest.json" for name in sorted(listed - known))
     return CorpusParts(folder, manifest, recipe, index, sidecars, unlisted), found + Findings(missing)

@@ -27,7 +27,7 @@ from datagen.recipes.signal_settings import Signal
 from datagen.recipes.split_settings import Split
 from datagen.recipes.store_settings import Store
 from datagen.settings.problems import bad_settings
-from datagen.settings.table import OneOf, Table, named_differently, refuse
+from datagen.settings.table import OneOf, Prose, Table, named_differently, refuse
 from datagen.settings.toml_file import read_toml
 from physics.words import CONTACT_LAWS
 
@@ -91,13 +91,13 @@ class Recipe(Table):
 
     name: Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]*$", max_length=60)]
     """Name of the corpus: letters, digits, - and _."""
-    title: str = ""
+    title: Prose = ""
     """One line for people."""
-    summary: str = ""
+    summary: Prose = ""
     """A few sentences for people."""
-    licence: str = ""
+    licence: Prose = ""
     """Terms of use of the corpus."""
-    citation: str = ""
+    citation: Prose = ""
     """How its makers want to be cited."""
     seed: Annotated[int, Field(ge=0, le=2**63 - 1)]
     """Seed of every random number."""

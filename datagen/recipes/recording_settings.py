@@ -56,6 +56,8 @@ class RecordedLayerSettings(Table):
     def _read(cls, value: object, info: ValidationInfo) -> object:
         if not isinstance(value, dict) or not isinstance(value.get("file"), str):
             return value
+        if "path" in value:
+            raise refuse("unknown key", "path")
         path = Path((info.context or {}).get(FOLDER, Path())).absolute() / value["file"]
         if not path.is_file() and all(name in value for name in LEARNT):
             return value

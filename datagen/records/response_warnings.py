@@ -80,7 +80,7 @@ def _chaos(trace: Trace) -> str:
         return ""
     return (
         f"bouncing balls multiply errors {trace.sensitivity:.0f} times, and finer steps lead to other responses: it is "
-        "chaotic, and its spectra hold but not its single points"
+        "chaotic, and its spectra hold but not its single points, unless a smaller error settles them"
     )
 
 

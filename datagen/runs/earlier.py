@@ -13,6 +13,8 @@ from datagen.errors import BadInput
 from datagen.files.atomic import is_temporary
 from datagen.files.lock import LOCK
 from datagen.files.places import OUT, SHARDS, require_folder
+from datagen.recipes.recipe import Recipe
+from datagen.runs.changes import differing_settings
 
 BEGUN_WITH = {
     "recipe_hash": "another recipe or another version of this one",
@@ -22,6 +24,8 @@ BEGUN_WITH = {
 }
 # What a run leaves that was interrupted before its first shard.
 BEGINNING = (LOCK, SHARDS)
+# So many changed settings are named.
+MOST_CHANGES = 3
 
 
 @dataclass(frozen=True)
@@ -36,8 +40,9 @@ class Earlier:
     lost: str = ""
 
 
-def earlier_runs(folder: Path, identity: Identity) -> Earlier:
-    """What earlier runs left in `folder`; raises BadInput unless it is empty or holds a corpus of the same `identity`.
+def earlier_runs(folder: Path, recipe: Recipe, identity: Identity) -> Earlier:
+    """What earlier runs left in `folder`; raises BadInput unless it is empty or holds a corpus of the same `identity`,
+    of which the `recipe` is a part.
 
     Also refused are a manifest that cannot be opened, and a damaged one if no shard is finished.
     """
@@ -49,7 +54,8 @@ def earlier_runs(folder: Path, identity: Identity) -> Earlier:
                 raise BadInput(
                     "this folder holds imported recordings: choose another folder", file=str(folder), field=OUT
                 )
-            _require_same(identity, manifest.identity, folder, f"the corpus {manifest.name}")
+            changed = differing_settings(manifest.recipe, recipe.model_dump(mode="json"))
+            _require_same(identity, manifest.identity, folder, f"the corpus {manifest.name}", changed)
             return Earlier(manifest.asked)
         damage = None
     except DamagedManifest as problem:
@@ -79,12 +85,17 @@ def _settled_spans(sidecars: Iterable[Sidecar], identity: Identity, folder: Path
     return add_spans((), ((record, record + 1) for record in settled)), count
 
 
-def _require_same(identity: Identity, found: Identity, folder: Path, held: str = "the corpus") -> None:
-    others = [other for part, other in BEGUN_WITH.items() if getattr(found, part) != getattr(identity, part)]
+def _require_same(
+    identity: Identity, found: Identity, folder: Path, held: str = "the corpus", changed: tuple[str, ...] = ()
+) -> None:
+    others = {part: other for part, other in BEGUN_WITH.items() if getattr(found, part) != getattr(identity, part)}
     if others:
+        if changed and "recipe_hash" in others:
+            more = f" and {len(changed) - MOST_CHANGES} more" if len(changed) > MOST_CHANGES else ""
+            others["recipe_hash"] += f" (then {', '.join(changed[:MOST_CHANGES])}{more})"
         raise BadInput(
-            f"{held} in this folder was begun with {', and with '.join(others)}; a corpus never mixes them: choose "
-            "another folder, or delete this one",
+            f"{held} in this folder was begun with {', and with '.join(others.values())}; a corpus never mixes them: "
+            "choose another folder, or delete this one",
             file=str(folder),
             field=OUT,
         )

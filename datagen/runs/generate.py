@@ -45,7 +45,7 @@ def generate(
     asked = selection(recipe, limit, records)
     check_compression(recipe.store.compression)
     identity = corpus_identity(recipe)
-    earlier = earlier_runs(folder, identity).asked
+    earlier = earlier_runs(folder, recipe, identity).asked
     require_memory(recipe)
     # Before any scenario is drawn, which takes some of the kernels: here two processes compile them, or a damaged cache
     # is mended.
@@ -58,7 +58,7 @@ def generate(
     with ExitStack() as once_workers_are_gone, engaged((engine or Engine()).for_tasks(len(planned))):
         _make_folder(folder)
         once_workers_are_gone.enter_context(locked(folder))
-        found = earlier_runs(folder, identity)  # again: another run may have been here since
+        found = earlier_runs(folder, recipe, identity)  # again: another run may have been here since
         if found.lost:
             listener.say(found.lost)
         if _last(found.asked) > stop:

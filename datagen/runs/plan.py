@@ -25,8 +25,10 @@ from labels.schema import LAYERS
 from labels.variables import AXES, SIGNALS
 from physics.words import STIFFNESS_COMPONENTS
 
-# Bytes that a shard takes besides its signals: labels, tables, scenarios and the library's blocks.
-SHARD_OVERHEAD = 250_000.0
+# Bytes that a shard takes besides its signals and their axes: labels, tables, scenarios and the library's blocks.
+SHARD_OVERHEAD = 300_000.0
+# Compressed over raw size of the axes: they rise evenly.
+ZLIB_SHARE_OF_AXES = 0.1
 # s; a plan that takes longer reports how far it has got.
 SECONDS_BETWEEN_REPORTS = 10.0
 
@@ -36,7 +38,7 @@ class PlannedShard:
     """A shard of the whole corpus: its number, its records and the optional signals that they all store.
 
     `record_bytes` is about what the signals of one record take on the disk, `raw_bytes` about what they take in memory,
-    and `record_seconds` the length of a record, s.
+    `axis_bytes` what the axes of all of them take on the disk, and `record_seconds` the length of a record, s.
     """
 
     number: int
@@ -44,6 +46,7 @@ class PlannedShard:
     stored: tuple[str, ...]
     record_bytes: float
     raw_bytes: float
+    axis_bytes: float
     record_seconds: float
 
 
@@ -89,7 +92,8 @@ class _Filled:
             self._open[kind] = len(self._shards)
             on_disk = stored_bytes(scenario, stored, self._store.compression)
             raw = stored_bytes(scenario, stored, "none")
-            self._shards.append(PlannedShard(len(self._shards), (), stored, on_disk, raw, scenario.duration))
+            axes = _axis_bytes(scenario, stored, self._store.compression)
+            self._shards.append(PlannedShard(len(self._shards), (), stored, on_disk, raw, axes, scenario.duration))
             self._records.append([])
         held = self._records[self._open[kind]]
         held.append(record)
@@ -144,9 +148,15 @@ def stored_bytes(scenario: Scenario, stored: tuple[str, ...], compression: str) 
     return total
 
 
+def _axis_bytes(scenario: Scenario, stored: tuple[str, ...], compression: str) -> float:
+    """About how many bytes the long axes of the signals need in a shard: time, stiffness_time and profile_angle."""
+    nodes = scenario.samples + stiffness_axis(scenario).size + (PROFILE_POINTS if "profile_depth" in stored else 0)
+    return 8.0 * nodes * (ZLIB_SHARE_OF_AXES if compression == "zlib" else 1.0)
+
+
 def needed_bytes(shards: Sequence[PlannedShard]) -> float:
     """About how many bytes the shards need on the disk."""
-    return sum(SHARD_OVERHEAD + len(shard.records) * shard.record_bytes for shard in shards)
+    return sum(SHARD_OVERHEAD + shard.axis_bytes + len(shard.records) * shard.record_bytes for shard in shards)
 
 
 def longest_first(shards: Iterable[PlannedShard]) -> list[PlannedShard]:

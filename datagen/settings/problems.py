@@ -168,7 +168,7 @@ def _range_at(location: Location, model: type[BaseModel]) -> str:
 
 
 def _keys_beside(location: Location, model: type[BaseModel]) -> list[str]:
-    return list(_table_around(location, model).model_fields)
+    return [name for name, field in _table_around(location, model).model_fields.items() if not field.exclude]
 
 
 def _table_around(location: Location, model: type[BaseModel]) -> type[BaseModel]:

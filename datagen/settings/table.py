@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Annotated, Any
 
-from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic import AfterValidator, BaseModel, ConfigDict, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from datagen.distributions.kinds import (
@@ -199,6 +199,18 @@ def shares_of_words(distribution: Distribution) -> dict[Any, float]:
 def refuse(problem: str, field: str = "", allowed: str = "") -> PydanticCustomError:
     """The error of a table whose settings do not go together; `field` names the one to point at."""
     return PydanticCustomError("settings", "{problem}", {"problem": problem, "field": field, "allowed": allowed})
+
+
+def prose(text: str) -> str:
+    """The `text`; raises PydanticCustomError if it holds signs that steer a terminal, which files and pages would show
+    each in its own way."""
+    sign = next((sign for sign in text if (sign < " " and sign not in "\n\t") or sign == "\x7f"), None)
+    if sign is not None:
+        raise refuse(f"holds the control character U+{ord(sign):04X}", allowed="text without control characters")
+    return text
+
+
+Prose = Annotated[str, AfterValidator(prose)]
 
 
 def rising(orders: tuple[int, int]) -> tuple[int, int]:

@@ -149,6 +149,13 @@ CASES = {
         "part[1].defect.extent_spacing = 0.9999999995",
         "is no line spall; allowed: below 1 ball spacing",
     ),
+    "a title that steers terminals": (
+        'name = "bad"',
+        'name = "bad"\ntitle = "x\\u001b[31mred"',
+        2,
+        "title = ",
+        "holds the control character U+001B; allowed: text without control characters",
+    ),
     "half a record": (
         "records = 2",
         "records = 2.5",

@@ -213,6 +213,7 @@ def test_a_manifest_with_a_changed_recipe_is_found(copy: Path) -> None:
     text = (copy / "manifest.json").read_text()
     write_atomically(copy / "manifest.json", text.replace('"seed": 7', '"seed": 8').encode())
     assert "its recipe does not have the hash that it states" in only_problem(copy)
+    assert check_corpus(copy).remedy.startswith("to mend it, run `spallgen generate` again")
 
 
 @pytest.mark.parametrize(

@@ -237,6 +237,16 @@ def test_a_recipe_kept_as_data_describes_its_recording_but_cannot_draw_without_i
         elsewhere.part[0].background.recording.load()
 
 
+@pytest.mark.parametrize("file", ["good.npy", "gone.npy"])
+def test_a_recipe_does_not_say_where_a_recording_was_found(file: str, folder: Path) -> None:
+    kept = load(folder, RECORDING.format(file="good.npy") + "rate_hz = 32768").model_dump(mode="json")
+    kept["part"][0]["background"]["recording"] |= {"file": file, "path": str(folder / "good.npy")}
+    with pytest.raises(BadInput, match=r"recording\.path = .*: unknown key"):
+        parse_recipe(kept, folder / "recipe.toml")
+    with pytest.raises(BadInput, match=r"recording\.pith: unknown key \(known here: file, rate_hz, .*, samples\)"):
+        load(folder, RECORDING.format(file="good.npy") + "rate_hz = 32768\npith = 1")
+
+
 def test_a_recording_that_changes_is_refused_by_the_old_recipe_and_taken_by_one_read_again(tmp_path: Path) -> None:
     def read(value: float) -> RecordedLayerSettings:
         np.save(tmp_path / "good.npy", np.full(SAMPLES, value))

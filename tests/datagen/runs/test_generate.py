@@ -207,8 +207,8 @@ def test_leftovers_of_killed_writers_are_swept(tiny: Recipe, copy: Path) -> None
 @pytest.mark.parametrize(
     ("change", "sentence"),
     [
-        ({"seed": 8}, "another recipe or another version of this one"),
-        ({"title": "Another title"}, "another recipe or another version of this one"),
+        ({"seed": 8}, r"another recipe or another version of this one \(then seed = 7\); a corpus never mixes them"),
+        ({"title": "Another title"}, r"another recipe or another version of this one \(then title = .*\);"),
     ],
 )
 def test_a_corpus_of_another_recipe_is_refused_and_left_alone(

@@ -83,7 +83,9 @@ def test_an_empty_list_of_records_is_refused(tiny: Recipe) -> None:
 
 def test_shards_that_take_longest_are_handed_out_first(tiny: Recipe) -> None:
     lengths = {0: (4, 0.5), 1: (1, 3.0), 2: (32, 1.0), 3: (5, 0.1)}
-    shards = [PlannedShard(number, (0,) * count, (), 1.0, 1.0, seconds) for number, (count, seconds) in lengths.items()]
+    shards = [
+        PlannedShard(number, (0,) * count, (), 1.0, 1.0, 0.0, seconds) for number, (count, seconds) in lengths.items()
+    ]
     assert [shard.number for shard in longest_first(shards)] == [2, 1, 0, 3]
 
 

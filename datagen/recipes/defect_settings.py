@@ -29,7 +29,7 @@ KIND = ("condition", "race", "profile")  # what a combination is of
 PlaceOf = Callable[[str], str]
 FILE_SCHEMA = {"type": "string"}
 IN_THE_LOAD_ZONE = Fixed(270.0)
-DEPTHS = Between(0.0, 1e4)
+DEPTHS_UM = Between(0.0, 1e4)
 
 
 class SpallSettings(Table):
@@ -49,7 +49,7 @@ class SpallSettings(Table):
     """Length of the spall along its raceway, mm."""
     extent_spacing: Annotated[Distribution, Between(0.0, 100.0, above=True)] | None = None
     """Arc covered by the spall, in ball spacings."""
-    depth_um: Annotated[Distribution, DEPTHS] | None = None
+    depth_um: Annotated[Distribution, DEPTHS_UM] | None = None
     """Depth of the floor, µm."""
     entry_taper_deg: TaperArc | None = None
     """Arc of the taper that a ball meets first, degrees. At 0 the film does not feel the edge of profile tukey; short
@@ -187,7 +187,7 @@ def _check_shape(spall: SpallSettings, where: str, condition: str, profile: str,
         lacks = "neither size nor depth" if spall.depth_um is None else "no size"
         raise refuse(f"{where} has {lacks}", place("extent_deg"), f"one of {', '.join(EXTENTS)}")
     if spall.depth_um is None:
-        raise refuse(f"{where} has no depth", place("depth_um"), DEPTHS.allowed())
+        raise refuse(f"{where} has no depth", place("depth_um"), DEPTHS_UM.allowed())
     if max(spall.depth_um.stated()) == 0.0 and (spall.roughness_um is None or max(spall.roughness_um.stated()) == 0.0):
         raise refuse(
             f"{where} with neither depth nor roughness is none",

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from datagen.corpus_files.format import Identity
 from datagen.corpus_files.manifest import DamagedManifest, Span, add_spans, manifest_path, read_manifest
@@ -42,7 +43,7 @@ class Earlier:
 
 def earlier_runs(folder: Path, recipe: Recipe, identity: Identity) -> Earlier:
     """What earlier runs left in `folder`; raises BadInput unless it is empty or holds a corpus of the same `identity`,
-    of which the `recipe` is a part.
+    made of the same `recipe`.
 
     Also refused are a manifest that cannot be opened, and a damaged one if no shard is finished.
     """
@@ -54,8 +55,7 @@ def earlier_runs(folder: Path, recipe: Recipe, identity: Identity) -> Earlier:
                 raise BadInput(
                     "this folder holds imported recordings: choose another folder", file=str(folder), field=OUT
                 )
-            changed = differing_settings(manifest.recipe, recipe.model_dump(mode="json"))
-            _require_same(identity, manifest.identity, folder, f"the corpus {manifest.name}", changed)
+            _require_same(identity, manifest.identity, folder, f"the corpus {manifest.name}", (manifest.recipe, recipe))
             return Earlier(manifest.asked)
         damage = None
     except DamagedManifest as problem:
@@ -86,13 +86,20 @@ def _settled_spans(sidecars: Iterable[Sidecar], identity: Identity, folder: Path
 
 
 def _require_same(
-    identity: Identity, found: Identity, folder: Path, held: str = "the corpus", changed: tuple[str, ...] = ()
+    identity: Identity,
+    found: Identity,
+    folder: Path,
+    held: str = "the corpus",
+    recipes: tuple[dict[str, Any], Recipe] | None = None,
 ) -> None:
+    """Raise BadInput unless the identity `found` is the wanted one; if the `recipes`, then and now, are known, it tells
+    some of what has changed."""
     others = {part: other for part, other in BEGUN_WITH.items() if getattr(found, part) != getattr(identity, part)}
     if others:
-        if changed and "recipe_hash" in others:
+        if recipes is not None and "recipe_hash" in others:
+            changed = differing_settings(recipes[0], recipes[1].model_dump(mode="json"))
             more = f" and {len(changed) - MOST_CHANGES} more" if len(changed) > MOST_CHANGES else ""
-            others["recipe_hash"] += f" (then {', '.join(changed[:MOST_CHANGES])}{more})"
+            others["recipe_hash"] += f" (then {', '.join(changed[:MOST_CHANGES])}{more})" if changed else ""
         raise BadInput(
             f"{held} in this folder was begun with {', and with '.join(others.values())}; a corpus never mixes them: "
             "choose another folder, or delete this one",

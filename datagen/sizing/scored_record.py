@@ -34,9 +34,9 @@ def must_be_sized(lag: float, rate: float, pass_period: float, spacings: float) 
     return lag >= shortest_lag(rate, pass_period) and spacings <= LONGEST_SCORED_SPACINGS
 
 
-def lacks_event(samples: Array) -> NDArray[np.bool_]:
+def lacks_event(samples: Array | float) -> NDArray[np.bool_]:
     """Where no size may be given (N,), by the lag between events in `samples` (N,): NaN for none, or below two."""
-    return ~(samples >= NO_EVENT_SAMPLES)
+    return np.logical_not(np.greater_equal(samples, NO_EVENT_SAMPLES))
 
 
 @dataclass(frozen=True)
@@ -170,7 +170,7 @@ class ScoredRecord:
     @property
     def without_event(self) -> bool:
         """True if nothing may be given: no event, or a lag below two samples."""
-        return self.truth.known and bool(lacks_event(np.array(self.truth.lag * self.truth.rate)))
+        return self.truth.known and bool(lacks_event(self.truth.lag * self.truth.rate))
 
     @property
     def asked(self) -> bool:

@@ -30,11 +30,10 @@ class Limits(NamedTuple):
     damped: tuple[tuple[float, float], ...]
 
 
-# Where the largest eigenvalue of the method's amplification matrix over one step reaches 1, or a little less; these
-# matrices are in
-# tests/physics/integrators/test_stability_limits.py. Limits rise with a little damping and fall again towards the
-# aperiodic case. An undamped mode under the Adams methods of order 3 and 4 grows at any step; up to their limit by less
-# than 1 % in 65 536 steps.
+# Where the largest eigenvalue of the method's amplification matrix over one step reaches 1, or a little below; these
+# matrices are in tests/physics/integrators/test_stability_limits.py. Limits rise with a little damping and fall again
+# towards the aperiodic case. An undamped mode under the Adams methods of order 3 and 4 grows at any step; up to their
+# limit by less than 1 % in 65 536 steps.
 RK4_EXPONENTIAL = Limits(1.41, ((0.9, 1.33),))
 RK4_CLASSICAL = Limits(2.82, ((0.3, 2.59), (0.9, 2.78)))
 ADAMS = {

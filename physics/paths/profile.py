@@ -43,6 +43,7 @@ MOST_TURNS = 8
 PATHS_KEPT = 64
 
 
+@lru_cache(maxsize=PATHS_KEPT)
 def build_path(spall: Spall, bearing: Bearing) -> DepthPath:
     """The path of the ball's centre over `spall`: a Tukey window, a deep gap in closed form, or a rolled surface.
 
@@ -52,7 +53,7 @@ def build_path(spall: Spall, bearing: Bearing) -> DepthPath:
     return _path_of_shape(replace(spall, angle=0.0, row=1), bearing)
 
 
-@lru_cache(maxsize=PATHS_KEPT)
+@lru_cache(maxsize=PATHS_KEPT)  # a lead-in turns spalls of the inner race, and their paths stay
 def _path_of_shape(spall: Spall, bearing: Bearing) -> DepthPath:
     if spall.rolled_arc > 0.0:
         return _rolled_path(spall, bearing)

@@ -131,8 +131,8 @@ def _roll(depth: Array, reach: int, step: float, ball: Ball, drop: Array, contac
 def drop_on(ball: Ball, depth: float, cosine: float, sine: float) -> float:
     """Drop (m) of the `ball` that touches the surface at this `depth` (m); infinite if it is too far away for that.
 
-    `cosine` and `sine` are of the angle between the ball's centre and the contact, not below 0. As
-    `Ball.drop`, for single numbers.
+    `cosine` and `sine` are of the angle between the ball's centre and the contact, not below 0. As `Ball.drop`,
+    for single numbers.
     """
     race_radius, ball_radius, outer = ball.race_radius, ball.ball_radius, ball.turn < 0.0
     radius = race_radius + depth if outer else race_radius - depth

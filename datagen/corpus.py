@@ -197,19 +197,22 @@ class Corpus:
         """What `waveform` gives for each of `records` (all, in order, if None), stacked to (N, …): (N, T, axes) in m/s²
         for the acceleration. Raises BadInput if they differ in shape, none is chosen, or one is not in the corpus."""
         chosen = list(self.labels["record"] if records is None else records)
-        return self._stack([self.waveform(record, variable) for record in chosen], variable)
-
-    def _stack(self, signals: list[NDArray[Any]], variable: str) -> NDArray[Any]:
-        if not signals:
+        if not chosen:
             raise BadInput("no record was chosen", file=str(self.folder), field="variable", value=variable)
-        shapes = sorted({np.shape(signal) for signal in signals})
-        if len(shapes) > 1:
-            raise BadInput(
-                f"the chosen records differ in shape ({', '.join(map(str, shapes))}); choose records of one sampling "
-                "rate, duration and bearing size",
-                file=str(self.folder), field="variable", value=variable,
-            )  # fmt: skip
-        return np.stack(signals)
+        first = self.waveform(chosen[0], variable)
+        if first.dtype.kind == "U":  # as wide as the longest
+            return np.stack([self.waveform(record, variable) for record in chosen])
+        stacked = np.empty((len(chosen), *first.shape), first.dtype)  # filled in place: corpora nearly fill the memory
+        for row, record in enumerate(chosen):
+            signal = self.waveform(record, variable)
+            if signal.shape != first.shape:
+                raise BadInput(
+                    f"the chosen records differ in shape ({chosen[0]}: {first.shape}, {record}: {signal.shape}); "
+                    "choose records of one sampling rate, duration and bearing size",
+                    file=str(self.folder), field="variable", value=variable,
+                )  # fmt: skip
+            stacked[row] = signal
+        return stacked
 
     def folds(
         self, count: int = 5, stratify: str = "condition", seed: int = 0

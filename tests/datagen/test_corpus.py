@@ -4,6 +4,7 @@ import pickle
 import re
 import subprocess
 import sys
+import tracemalloc
 from pathlib import Path
 from typing import Any
 
@@ -138,8 +139,23 @@ def test_batches_cover_every_record_once_in_order(corpus: Corpus) -> None:
 
 def test_records_of_different_shapes_are_not_stacked(corpus: Corpus) -> None:
     firsts = corpus.labels.query("condition == 'line'").groupby("rig")["record"].min()
-    with pytest.raises(BadInput, match="differ in shape"):
+    with pytest.raises(BadInput, match=r"differ in shape \(\d+: \(.*, 14\), \d+: \(.*, 12\)\)"):
         corpus.to_numpy("contact_force", firsts)
+
+
+def test_stacked_labels_are_those_of_the_table(corpus: Corpus) -> None:
+    assert list(corpus.to_numpy("condition")) == list(corpus.labels["condition"])
+    assert list(corpus.to_numpy("balls")) == list(corpus.labels["balls"])
+
+
+def test_records_are_stacked_without_a_copy_of_all(corpus: Corpus) -> None:
+    gearbox = list(corpus.labels.query("rig == 'gearbox'")["record"])
+    corpus.to_numpy(records=gearbox)  # opens the shards
+    tracemalloc.start()
+    stacked = corpus.to_numpy(records=gearbox * 30)
+    most = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert most < 1.3 * stacked.nbytes
 
 
 def test_an_unknown_record_or_signal_is_refused_with_what_is_known(corpus: Corpus) -> None:

@@ -43,17 +43,18 @@ def write_report(folder: str | Path, out: str | Path | None = None) -> Report:
     read_manifest(folder)  # what is no corpus is told as that, and not as a place where no report can be put
     out = folder / "report" if out is None else from_home(out)
     _check_folder(out)
+    # Listed before anything is drawn: what another report is just writing is no leftover.
+    earlier = [path.name for path in _held(out) if _is_of_a_report(path)]
     facts = corpus_facts(folder)
     if not facts.info.records:
         raise BadInput("this corpus holds no records yet", file=str(folder))
     contents = _contents(folder, facts, out)
-    earlier = [path.name for path in out.iterdir() if _is_of_a_report(path)] if out.is_dir() else []
     write_results(out, contents, gone=[name for name in earlier if name not in contents])
     return Report(str(out), tuple(contents), facts, unstated(facts))
 
 
 def _contents(folder: Path, facts: Facts, out: Path) -> dict[str, bytes]:
-    """Every file of the report by name."""
+    """Every file of the report by name, the card first."""
     from datagen.drawing.overview import overview_png
     from datagen.drawing.preview import preview_png
 
@@ -78,11 +79,18 @@ def _shown(kinds: tuple[Kind, ...]) -> tuple[Kind, ...]:
 def _check_folder(out: Path) -> None:
     """Raise BadInput unless `out` is new, empty, or the folder of a report, be it an unfinished one."""
     require_folder(out)
-    held = sorted(out.iterdir()) if out.is_dir() else []
-    foreign = [path.name for path in held if not _is_of_a_report(path)]
-    if foreign and not {path.name for path in held} >= TEXTS:
+    held = _held(out)
+    names = {path.name for path in held}
+    # A report's card is written first, so pictures without one are somebody's own.
+    foreign = [path.name for path in held if not (is_temporary(path) or (CARD in names and _is_of_a_report(path)))]
+    if foreign and not names >= TEXTS:
         problem = f"this folder holds things other than a report, such as {foreign[0]}"
         raise BadInput(problem, file=str(out), field=OUT)
+
+
+def _held(out: Path) -> list[Path]:
+    """What is in the folder `out`, by name; nothing where there is none."""
+    return sorted(out.iterdir()) if out.is_dir() else []
 
 
 def _is_of_a_report(path: Path) -> bool:

@@ -15,6 +15,7 @@ import scipy.io
 import xarray
 from command_line import run
 
+from datagen.cards import corpus_report
 from datagen.cards.card import card_text
 from datagen.cards.corpus_report import CARD, METADATA, VOCABULARY, Report, write_report
 from datagen.cards.croissant import croissant_text, unstated
@@ -307,6 +308,27 @@ def test_a_report_that_was_interrupted_is_written_again(measured: Path, tmp_path
     report = write_report(measured, folder)
     assert sorted(path.name for path in folder.iterdir()) == sorted(report.files)
     assert (folder / "card.md").read_text() != "the first of its files"
+
+
+def test_pictures_of_previews_without_a_card_are_no_report(measured: Path, tmp_path: Path) -> None:
+    (tmp_path / "record_000005.png").write_bytes(b"a preview")
+    with pytest.raises(BadInput, match=r"this folder holds things other than a report, such as record_000005\.png"):
+        write_report(measured, tmp_path)
+    assert [path.name for path in tmp_path.iterdir()] == ["record_000005.png"]
+
+
+def test_what_another_report_is_just_writing_is_left(
+    measured: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    writing, drawn = tmp_path / f".{7:032x}.part", corpus_report._contents
+
+    def contents(*arguments: Any) -> dict[str, bytes]:
+        writing.write_bytes(b"not finished")
+        return drawn(*arguments)
+
+    monkeypatch.setattr(corpus_report, "_contents", contents)
+    write_report(measured, tmp_path)
+    assert writing.exists()
 
 
 def test_the_command_writes_the_facts_as_json_and_refuses_a_folder_without_a_corpus(

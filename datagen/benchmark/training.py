@@ -107,10 +107,11 @@ def training_records(folder: Path, also_tested: bool, first: int | None = None) 
     chosen = labels[np.isin(true_classes(labels), CLASSES)]
     if also_tested:
         chosen = chosen[chosen["split"] != TEST]
+    enough_in_all = chosen["bearing_id"].nunique() >= FEWEST_BEARINGS
     chosen = chosen.iloc[:first]
     if chosen["bearing_id"].nunique() < FEWEST_BEARINGS:
         problem, enough = "too few virtual bearings to learn from", f"{FEWEST_BEARINGS} virtual bearings or more"
-        if first is not None and labels["bearing_id"].nunique() >= FEWEST_BEARINGS:
+        if enough_in_all:
             raise BadInput(problem, file=str(folder), field=FIRST, value=first, allowed=f"records of {enough}")
         outside = f" outside its split {TEST}" if also_tested else ""
         raise BadInput(problem, file=str(folder), field=TRAIN, allowed=f"a corpus with {enough}{outside}")

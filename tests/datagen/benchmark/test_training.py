@@ -1,6 +1,7 @@
 """What is learned from: the records, the rule's threshold, the rival training set."""
 
 import numpy as np
+import pandas
 import pytest
 
 from datagen.benchmark.impulse_signal import Ingredients
@@ -49,3 +50,12 @@ def test_plain_impulse_trains_are_as_many_as_asked():
 def test_too_few_of_the_first_records_are_told_of_the_option_that_left_the_others_out(tiny_corpus):
     with pytest.raises(BadInput, match=r"--first = 1: too few virtual bearings .*; allowed: records of 4 virtual"):
         training_records(tiny_corpus, also_tested=False, first=1)
+
+
+def test_where_no_number_of_first_records_would_do_the_corpus_is_refused(divided):
+    index = pandas.read_csv(divided / "index.csv", keep_default_na=False)
+    bearings = sorted(index["bearing_id"].unique())
+    index["split"] = np.where(index["bearing_id"].isin(bearings[:3]), "train", "test")
+    index.to_csv(divided / "index.csv", index=False)
+    with pytest.raises(BadInput, match=r"--train: too few .*; allowed: a corpus with 4 .* outside its split test"):
+        training_records(divided, also_tested=True, first=2)

@@ -13,7 +13,7 @@ from datagen.recordings.settings import RecordingSettings
 from datagen.recordings.spec_files import find_spec
 from datagen.recordings.values import word
 from datagen.settings.problems import bad_settings
-from datagen.settings.table import Table, named_differently, refuse
+from datagen.settings.table import Prose, Table, named_differently, refuse
 from datagen.settings.toml_file import read_toml
 
 Patterns = Annotated[tuple[str, ...], Field(min_length=1, strict=False)]
@@ -86,15 +86,15 @@ class Spec(Table):
 
     name: Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]*$", max_length=60)]
     """Name of the corpus: letters, digits, - and _."""
-    title: str = ""
+    title: Prose = ""
     """One line for people."""
-    summary: str = ""
+    summary: Prose = ""
     """A few sentences for people."""
-    licence: str = ""
+    licence: Prose = ""
     """Terms of use of the recordings."""
-    citation: str = ""
+    citation: Prose = ""
     """How their makers want to be cited."""
-    url: str = ""
+    url: Prose = ""
     """Where they come from."""
     root: str = "."
     """Folder of the files, from the folder of the SPEC."""

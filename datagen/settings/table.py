@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from typing import Annotated, Any
+from unicodedata import category
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
@@ -204,7 +205,7 @@ def refuse(problem: str, field: str = "", allowed: str = "") -> PydanticCustomEr
 def prose(text: str) -> str:
     """The `text`; raises PydanticCustomError if it holds signs that steer a terminal, which files and pages would show
     each in its own way."""
-    sign = next((sign for sign in text if (sign < " " and sign not in "\n\t") or sign == "\x7f"), None)
+    sign = next((sign for sign in text if category(sign) == "Cc" and sign not in "\n\t"), None)
     if sign is not None:
         raise refuse(f"holds the control character U+{ord(sign):04X}", allowed="text without control characters")
     return text

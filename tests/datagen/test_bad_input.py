@@ -156,6 +156,13 @@ CASES = {
         "title = ",
         "holds the control character U+001B; allowed: text without control characters",
     ),
+    "a summary with the one sign that begins such a code": (
+        'name = "bad"',
+        'name = "bad"\nsummary = "x\u009b31mred"',
+        2,
+        "summary = ",
+        "holds the control character U+009B; allowed: text without control characters",
+    ),
     "half a record": (
         "records = 2",
         "records = 2.5",

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datagen.corpus_files.manifest import no_corpus
-from datagen.corpus_files.shard import LABEL_COLUMNS, Sidecar, shard_path
+from datagen.corpus_files.shard import LABEL_COLUMNS, Sidecar, shard_name
 from datagen.errors import BadInput, at_line, unreadable
 from datagen.files.atomic import opened_atomically
 from datagen.files.places import INDEX
@@ -47,7 +47,7 @@ def write_index(folder: Path, sidecars: Iterator[Sidecar]) -> int:
         text = io.TextIOWrapper(file, encoding="utf-8", newline="")
         table = csv.writer(text, lineterminator="\n")
         table.writerow((*LABEL_COLUMNS, *PLACE_COLUMNS))
-        for row in _in_order_of_records(sidecars, folder):
+        for row in _in_order_of_records(sidecars):
             table.writerow(row)
             count += 1
         text.detach()
@@ -67,7 +67,7 @@ class _OpenShard(NamedTuple):
     later: Iterator[Row]
 
 
-def _in_order_of_records(sidecars: Iterator[Sidecar], folder: Path) -> Iterator[Row]:
+def _in_order_of_records(sidecars: Iterator[Sidecar]) -> Iterator[Row]:
     """Rows of all shards by record, holding only shards whose records interleave in memory."""
     open_shards: list[_OpenShard] = []
     for sidecar in sidecars:
@@ -76,7 +76,7 @@ def _in_order_of_records(sidecars: Iterator[Sidecar], folder: Path) -> Iterator[
         # The first record that a shard was asked for may be one that could not be made.
         while open_shards and open_shards[0].record < min(sidecar.settled):
             yield _next_row(open_shards)
-        rows = _rows(sidecar, folder)
+        rows = _rows(sidecar)
         heapq.heappush(open_shards, _OpenShard(sidecar.records[0], sidecar.shard, next(rows), rows))
     while open_shards:
         yield _next_row(open_shards)
@@ -93,8 +93,8 @@ def _next_row(open_shards: list[_OpenShard]) -> Row:
     return first.row
 
 
-def _rows(sidecar: Sidecar, folder: Path) -> Iterator[Row]:
-    name = shard_path(folder, sidecar.shard).relative_to(folder).as_posix()
+def _rows(sidecar: Sidecar) -> Iterator[Row]:
+    name = shard_name(sidecar.shard)
     columns = [sidecar.labels[column] for column in LABEL_COLUMNS]
     for position in range(len(sidecar.records)):
         yield (*("NaN" if column[position] is None else column[position] for column in columns), name, position)

@@ -10,7 +10,7 @@ from typing import Any
 
 from datagen.corpus_files.format import FORMAT, IMPORTED, SIMULATED, Identity
 from datagen.corpus_files.json_values import UNREADABLE, amount, row, text, whole
-from datagen.corpus_files.shard import Failure, Sidecar, has_finished_shards, shard_path
+from datagen.corpus_files.shard import Failure, Sidecar, has_finished_shards, shard_name
 from datagen.errors import BadInput
 from datagen.files.atomic import write_atomically
 from datagen.files.places import MANIFEST
@@ -89,12 +89,12 @@ class Manifest:
         """Number of records asked for."""
         return sum(stop - start for start, stop in self.asked)
 
-    def with_shards(self, folder: Path, sidecars: Iterable[Sidecar]) -> Manifest:
-        """The manifest with what the sidecars of the finished shards in `folder` say."""
+    def with_shards(self, sidecars: Iterable[Sidecar]) -> Manifest:
+        """The manifest with what the sidecars of the finished shards say."""
         found = list(sidecars)
         return replace(
             self,
-            shards=tuple(shard_entry(sidecar, folder) for sidecar in found if sidecar.records),
+            shards=tuple(shard_entry(sidecar) for sidecar in found if sidecar.records),
             failed=tuple(failure for sidecar in found for failure in sidecar.failed),
             bytes=sum(sidecar.bytes for sidecar in found),
             seconds=round(sum(sidecar.seconds for sidecar in found), 3),
@@ -201,10 +201,10 @@ def _in_words(problem: Exception) -> str:
     return "its entries are not those of this version of the format"
 
 
-def shard_entry(sidecar: Sidecar, folder: Path) -> ShardEntry:
-    """What the manifest of the corpus `folder` says of a finished shard."""
+def shard_entry(sidecar: Sidecar) -> ShardEntry:
+    """What the manifest of a corpus says of a finished shard."""
     return ShardEntry(
-        file=shard_path(folder, sidecar.shard).relative_to(folder).as_posix(),
+        file=shard_name(sidecar.shard),
         records=len(sidecar.records),
         first=sidecar.records[0],
         last=sidecar.records[-1],

@@ -68,6 +68,11 @@ def shard_path(folder: Path, shard: int) -> Path:
     return shards_folder(folder) / f"shard_{shard:06d}.nc"
 
 
+def shard_name(shard: int) -> str:
+    """What the file of a shard is called in index and manifest: its path in the corpus."""
+    return f"{SHARDS}/{shard_path(Path(), shard).name}"
+
+
 def sidecar_path(folder: Path, shard: int) -> Path:
     """Where the JSON beside the file of a shard lies."""
     return shard_path(folder, shard).with_suffix(".json")

@@ -8,7 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from datagen.corpus_files.format import FORMAT, format_hash
-from datagen.corpus_files.manifest import read_manifest, shard_entry
+from datagen.corpus_files.manifest import read_manifest
+from datagen.corpus_files.shard import shard_name
 from datagen.counts import counted
 from datagen.errors import BadInput
 from datagen.files.lock import is_held
@@ -86,7 +87,7 @@ def _wrong_shards(parts: CorpusParts) -> Findings:
         found += check_shard(parts, sidecar)
         twice = seen.intersection(sidecar.records)
         if twice:
-            name = shard_entry(sidecar, parts.folder).file
+            name = shard_name(sidecar.shard)
             found += of_file(name, [f"record {min(twice)} is in another shard too"])
         seen.update(sidecar.records)
     return found

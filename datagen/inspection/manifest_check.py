@@ -47,7 +47,7 @@ def differences(
         yield "manifest.json: the corpus holds records that it does not list as asked for"
     if not compare_sums:
         return
-    summed = manifest.with_shards(folder, sidecars)
+    summed = manifest.with_shards(sidecars)
     differing = [name for name in SUMMED if getattr(summed, name) != getattr(manifest, name)]
     if stated_records(folder) != summed.records:
         differing.append("records")

@@ -25,7 +25,7 @@ FORBIDDEN = "it cannot be read for lack of permission; change its permissions"
 
 def check_shard(parts: CorpusParts, sidecar: Sidecar) -> Findings:
     """Everything wrong with the shard that `sidecar` vouches for, which holds records."""
-    entry = shard_entry(sidecar, parts.folder)
+    entry = shard_entry(sidecar)
     dataset, damage = _opened(shard_path(parts.folder, sidecar.shard), sidecar)
     found = of_file(entry.file, damage, damaged=bool(damage) and damage != [FORBIDDEN])
     if sidecar.identity != parts.manifest.identity:

@@ -122,7 +122,7 @@ def _write(plan: ImportPlan, manifest: Manifest, listing: Listing, folder: Path,
                 write_shard(staging, Sidecar(number, manifest.identity, seconds=seconds), dataset, "zlib")
         with writing(folder):
             write_index(staging, finished_shards(staging))
-            manifest = manifest.with_shards(staging, finished_shards(staging))
+            manifest = manifest.with_shards(finished_shards(staging))
             write_manifest(staging, manifest)
         for path in {*(request.path for request in listing.requests), *listing.tables.values()}:
             require_unchanged(path)  # so that the hashes in the manifest are those of what was read

@@ -158,7 +158,7 @@ class Run:
     def _rescan(self) -> None:
         """Find out what is finished, from the disk alone."""
         self.finished = find_finished(self.folder, self.manifest.identity)
-        self.manifest = self.manifest.with_shards(self.folder, self.finished.shards.values())
+        self.manifest = self.manifest.with_shards(self.finished.shards.values())
 
     def _wanted_of(self, shard: PlannedShard) -> int:
         return len(self.wanted.intersection(shard.records))

@@ -18,7 +18,7 @@ IDENTITY = Identity("r" * 16, "m" * 16, "f" * 16, "p" * 16)
 def test_a_manifest_counts_what_a_shard_without_a_record_cost_and_why(tmp_path: Path) -> None:
     refused = {"record: extent": Refused(2, "too long")}
     sidecar = Sidecar(0, IDENTITY, failed=(Failure(7, "no equilibrium"),), seconds=1.5, refused=refused)
-    manifest = Manifest("a", IDENTITY, {}, 8, ((7, 8),)).with_shards(tmp_path, [sidecar])
+    manifest = Manifest("a", IDENTITY, {}, 8, ((7, 8),)).with_shards([sidecar])
     assert (manifest.shards, manifest.failed, manifest.seconds) == ((), sidecar.failed, 1.5)
     assert manifest.refused == refused
 
@@ -31,7 +31,7 @@ def test_a_manifest_lists_the_shards_that_hold_records_and_adds_them_up(tmp_path
         Sidecar(5, IDENTITY, (7,), bytes=30, sha256="t", content="d", seconds=1.0),
     ]
     begun = Manifest("a", IDENTITY, {"title": "A title"}, 12, ((0, 3), (4, 10)), bytes=5, seconds=9.0)
-    manifest = begun.with_shards(tmp_path, sidecars)
+    manifest = begun.with_shards(sidecars)
     assert manifest.shards == (
         ShardEntry("shards/shard_000003.nc", 3, 4, 9, 70, "s", "c"),
         ShardEntry("shards/shard_000005.nc", 1, 7, 7, 30, "t", "d"),

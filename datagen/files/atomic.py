@@ -68,13 +68,19 @@ def write_results(folder: Path, files: Mapping[str, bytes], gone: Iterable[str] 
 
     Where the first of them cannot be written, folders that were not there before are not left there either.
     """
+    with writing(folder), leaving_no_folders(folder):
+        folder.mkdir(parents=True, exist_ok=True)
+        for name, content in files.items():
+            write_atomically(folder / name, content)
+        for name in gone:
+            (folder / name).unlink(missing_ok=True)
+
+
+@contextmanager
+def writing(folder: Path) -> Iterator[None]:
+    """BadInput that names `folder`, given with `--out`, in place of an OSError of the block, which only writes."""
     try:
-        with leaving_no_folders(folder):
-            folder.mkdir(parents=True, exist_ok=True)
-            for name, content in files.items():
-                write_atomically(folder / name, content)
-            for name in gone:
-                (folder / name).unlink(missing_ok=True)
+        yield
     except OSError as problem:
         raise BadInput(f"cannot write here: {problem.strerror}", file=str(folder), field=OUT) from None
 

@@ -14,6 +14,7 @@ from datagen.corpus_files.index import write_index
 from datagen.corpus_files.manifest import Manifest, write_manifest
 from datagen.corpus_files.shard import Sidecar, finished_shards, write_shard
 from datagen.errors import BadInput
+from datagen.files.atomic import writing
 from datagen.files.places import OUT, from_home, require_folder
 from datagen.progress import Say, Throttle, ignore
 from datagen.recordings.dataset import imported_dataset
@@ -23,7 +24,7 @@ from datagen.recordings.opened_files import remembered_files, source_hash
 from datagen.recordings.recorded import Recorded, read_recording
 from datagen.recordings.spec import Spec
 from datagen.recordings.spec_files import shipped_specs
-from datagen.recordings.staging import staged, writing
+from datagen.recordings.staging import staged
 from datagen.recordings.unchanged import require_unchanged
 from datagen.versions import program_hash, program_versions
 

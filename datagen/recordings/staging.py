@@ -11,9 +11,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from datagen.corpus_files.shard import shards_folder
-from datagen.errors import BadInput
-from datagen.files.atomic import TEMPORARY_SUFFIX, leaving_no_folders, sync_folder
-from datagen.files.places import OUT
+from datagen.files.atomic import TEMPORARY_SUFFIX, leaving_no_folders, sync_folder, writing
 
 # Of a folder's name that the one beside it is called by.
 NAME_BYTES = 64
@@ -44,15 +42,6 @@ def staged(folder: Path) -> Iterator[Path]:
                 sync_folder(folder.parent)
         finally:
             shutil.rmtree(staging, ignore_errors=True)
-
-
-@contextmanager
-def writing(folder: Path) -> Iterator[None]:
-    """BadInput that names `folder` in place of an OSError of the block, which does nothing but write."""
-    try:
-        yield
-    except OSError as problem:
-        raise BadInput(f"cannot write here: {problem.strerror}", file=str(folder), field=OUT) from None
 
 
 def _sweep(place: Path, beginning: str) -> None:

@@ -33,3 +33,8 @@ class Operation:
         require_finite("unbalance_phase", self.unbalance_phase, "rad")
         require_between("load_fluctuation", self.load_fluctuation, 0.0, 10.0)
         require_finite("fluctuation_phase", self.fluctuation_phase, "rad")
+
+    @property
+    def load_bound(self) -> float:
+        """A force (N) that static load, fluctuation and unbalance together never exceed."""
+        return abs(self.load) * (1.0 + self.load_fluctuation) + self.unbalance_force

@@ -30,10 +30,9 @@ def farthest_rest(scene: Scene) -> float:
     In whatever direction the shaft moves, a ball lies within half a spacing of it. Once that ball alone carries more
     than the whole load, even over the deepest floor, moving on costs more energy than the load gives.
     """
-    bearing, run = scene.rig.bearing, scene.operation
-    load = abs(run.load) * (1.0 + run.load_fluctuation) + run.unbalance_force
+    bearing = scene.rig.bearing
     side = math.cos(bearing.spacing / 2.0)
-    compression = (load / (bearing.radial_load_deflection * side)) ** (1.0 / bearing.exponent)
+    compression = (scene.operation.load_bound / (bearing.radial_load_deflection * side)) ** (1.0 / bearing.exponent)
     return (compression + _deepest_floor(scene)) / side
 
 

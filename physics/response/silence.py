@@ -17,13 +17,12 @@ UNSURE = 1e-12
 def largest_forces(scene: Scene) -> float:
     """Sum (N) of the outer load at its largest and of what all balls bear at most where clearance and imperfections
     press them between rings that do not give way [P14 Eq. 6]."""
-    bearing, imperfect, run = scene.rig.bearing, scene.imperfections, scene.operation
-    load = abs(run.load) * (1.0 + run.load_fluctuation) + run.unbalance_force
+    bearing, imperfect = scene.rig.bearing, scene.imperfections
     proud = sum(wave.amplitude for wave in imperfect.waviness)
     proud_ball = max((deviation for row in imperfect.ball_deviation for deviation in row), default=0.0)
     proud += proud_ball / math.cos(bearing.contact_angle)
     pressed = bearing.radial_load_deflection * max(0.0, proud - bearing.clearance) ** bearing.exponent
-    return load + bearing.rows * bearing.balls * pressed
+    return scene.operation.load_bound + bearing.rows * bearing.balls * pressed
 
 
 def silence(scene: Scene) -> float:

@@ -33,3 +33,8 @@ def test_an_impossible_operation_is_refused_by_field_and_value(change, message):
     with pytest.raises(InvalidParameter, match=message) as caught:
         Operation(**{"shaft_speed": 44.0, "load": 346.0, **change})
     assert caught.value.field in change
+
+
+def test_the_bound_of_the_load_holds_static_load_its_swing_and_what_turns():
+    run = Operation(shaft_speed=44.0, load=-100.0, unbalance_force=30.0, load_fluctuation=0.5)
+    assert run.load_bound == 180.0

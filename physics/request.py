@@ -8,11 +8,10 @@ from typing import ClassVar
 from physics.checks import require_between, require_count, require_not_negative, require_one_of
 from physics.integrators.method_table import MARCHES
 from physics.ladder.model_table import SIMPLER_MODELS
-from physics.response.part import SMALLEST_ACCURACY
+from physics.response.part import LARGEST_ACCURACY, SMALLEST_ACCURACY
 from physics.response.stability import MOST_STABLE_SUBSTEPS
 from physics.trace import KEEPABLE
 
-LARGEST_ACCURACY = 0.1
 USUAL_STEPS = "exponential_rk4"
 
 

@@ -7,8 +7,7 @@ from typing import Annotated
 from pydantic import Field
 
 from datagen.settings.table import Table
-from physics.request import LARGEST_ACCURACY
-from physics.response.part import SMALLEST_ACCURACY
+from physics.response.part import LARGEST_ACCURACY, SMALLEST_ACCURACY
 
 
 class AccuracySettings(Table):

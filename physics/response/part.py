@@ -7,8 +7,8 @@ from typing import NamedTuple
 
 from physics.trace import Trace
 
-# The smallest relative accuracy that a response may be asked for.
-SMALLEST_ACCURACY = 1e-6
+# The relative accuracies that a response may be asked for.
+SMALLEST_ACCURACY, LARGEST_ACCURACY = 1e-6, 0.1
 # Of the accuracy that would just do, what a response that was not exact enough is made to next; how many are made.
 NEXT_SHARE, MOST_ATTEMPTS = 0.9, 3
 

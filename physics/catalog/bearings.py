@@ -12,6 +12,7 @@ from physics.hertz import ROLLER_EXPONENT, load_deflection_factor, roller_load_d
 
 PAPER_GEARBOX = "Petersen et al. 2014, section 5.1"
 PAPER_GEARBOX_TABLE = "Petersen et al. 2014, Table 1"
+PAPER_MODEL = "Petersen et al. 2014, section 5.2"
 PAPER_FAN = "Petersen et al. 2014, section 6.1"
 PAPER_FAN_TABLE = "Petersen et al. 2014, Table 2"
 PAPER_LAW = "Petersen et al. 2014, Eq. 6"
@@ -75,7 +76,7 @@ KOYO_1205 = CatalogBearing(
     pitch_diameter=Sourced(38.75e-3, "m", PAPER_GEARBOX),
     ball_diameter=Sourced(7.12e-3, "m", PAPER_GEARBOX),
     load_deflection=Sourced(5157e6, "N/m^1.5", PAPER_GEARBOX_TABLE),
-    clearance=Sourced(0.0, "m", "Petersen et al. 2014, section 5.2", note="the source calls it assumed"),
+    clearance=Sourced(0.0, "m", PAPER_MODEL, note="the source calls it assumed"),
     contact_angle=Sourced(0.0, "rad", PAPER_GEARBOX),
     row_offset=Sourced(math.pi / 12, "rad", PAPER_GEARBOX, note="half the ball spacing, one cage"),
     outer_conformity=_sphere(38.75e-3, 7.12e-3, PAPER_GEARBOX),

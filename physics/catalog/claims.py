@@ -5,12 +5,20 @@ from __future__ import annotations
 import math
 
 from physics.angular_speed import in_hertz
-from physics.catalog.bearings import CWRU, IMS, MFPT, PAPER_FAN, PAPER_FAN_TABLE, PAPER_GEARBOX, PAPER_GEARBOX_TABLE
+from physics.catalog.bearings import (
+    CWRU,
+    IMS,
+    MFPT,
+    PAPER_FAN,
+    PAPER_FAN_TABLE,
+    PAPER_GEARBOX,
+    PAPER_GEARBOX_TABLE,
+    PAPER_MODEL,
+)
 from physics.catalog.sourced import Claim
 from physics.hertz import contact_width, hertz_load_deflection
 from physics.rig import Rig
 
-PAPER_MODEL = "Petersen et al. 2014, section 5.2"
 PAPER_MODES = "Petersen et al. 2014, section 6.2"
 PAPER_RESPONSE = "Petersen et al. 2014, section 5.6"
 

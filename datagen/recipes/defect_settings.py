@@ -14,7 +14,7 @@ from datagen.distributions.kinds import Distribution, Fixed
 from datagen.recipes.profile_table import ProfileTable
 from datagen.recipes.quantities import EXTENTS_MM, Degrees, Share
 from datagen.settings.table import Between, OneOf, Table, Whole, at_most_one, possible_words, refuse
-from labels.schema import HEALTHY
+from labels.schema import CONDITIONS, HEALTHY
 from physics.bearing import RACES
 from physics.spall import ARC_ROUNDING, EXTENDED_FROM
 
@@ -82,7 +82,7 @@ class DefectSettings(SpallSettings):
     then race, then profile; the later replaces the earlier.
     """
 
-    condition: Annotated[Distribution, OneOf((HEALTHY, "line", "extended"))]
+    condition: Annotated[Distribution, OneOf(CONDITIONS)]
     """healthy, line (shorter than the ball spacing) or extended (at least the ball spacing)."""
     race: Annotated[Distribution, OneOf(RACES)] = Fixed("outer")
     """The defective race."""

@@ -1,7 +1,7 @@
 """The feature table: numbers that a vibration analyst would recognise, from acceleration, geometry and shaft speed.
 
-- `jumps`, `glitches`, `shocks`: a bias that jumps, what a recorder wrote wrongly, blows from outside: taken out first,
-  by `mending`
+- `jumps`, `drift`, `glitches`, `shocks`: a bias that jumps or wanders, what a recorder wrote wrongly, blows from
+  outside: taken out first, by `mending`; `whole_turns` cuts a signal into turns of the shaft
 - `conditioning`: a signal's spectrum, raw and flattened; `envelopes`: envelope spectra of a tree of bands
 - `turning`: all of that over the angle turned, for speeds that change
 - `combs`: lines of another shaft's knocks, taken out; `foreign_combs` and `race_combs` find them

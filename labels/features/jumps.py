@@ -8,11 +8,9 @@ from __future__ import annotations
 import numpy as np
 from scipy import ndimage
 
+from labels.features.whole_turns import whole_turns
 from physics.arrays import Array
 
-# In fewer turns of the shaft nothing says what is usual.
-FEWEST_TURNS = 8
-FEWEST_SAMPLES_A_TURN = 16
 # Height of a jump over the usual standard deviation within a turn. Right at a place a drift makes 0.9 of its own, and
 # a swing or a square wave once a turn makes 2; pulses once a turn make 3 at most, and are gone over whole turns.
 OVER_SPREAD = 4.0
@@ -25,25 +23,22 @@ TURNS_EACH = 8
 def without_jumps(signal: Array, turns: float) -> tuple[Array, int]:
     """The signal (T,) with all behind a jump moved back by its height, and how many jumps there were.
 
-    The signal as it is and 0 where there is none, or more than one in TURNS_EACH `turns`, or in fewer than
-    FEWEST_TURNS.
+    The signal as it is and 0 where there is none, or more than one in TURNS_EACH `turns`, or in too few turns to tell.
     """
-    blocks = min(int(turns), signal.size // FEWEST_SAMPLES_A_TURN)
-    if blocks < FEWEST_TURNS:
+    cut = whole_turns(signal, turns)
+    if cut is None:
         return signal, 0
-    edges = np.arange(blocks + 1) * signal.size // blocks
-    parts = np.split(signal, edges[1:-1])
-    spread = float(np.median([part.std() for part in parts]))
-    middle = np.array([np.median(part) for part in parts])
+    edges, spread = cut.edges, cut.spread
+    middle = np.array([np.median(part) for part in cut.parts])
     away = np.pad(np.abs(middle[2:] - middle[:-2]) > OVER_SPREAD * spread, 1)
     # A jump shows in the one or two turns whose neighbours it parts.
     if spread == 0.0 or not 0 < np.count_nonzero(away) <= 2.0 * turns / TURNS_EACH:
         return signal, 0
     places = [_place(signal, edges[run.start - 1], edges[run.stop + 1]) for run in _runs(away)]
-    jumps = [place for place in places if _is_jump(signal, place, signal.size / blocks, OVER_SPREAD * spread)]
+    jumps = [place for place in places if _is_jump(signal, place, cut.length, OVER_SPREAD * spread)]
     level = signal.copy() if jumps else signal
     for place in jumps:
-        level[place:] -= _height(signal, place, REACH * signal.size / blocks)
+        level[place:] -= _height(signal, place, REACH * cut.length)
     return level, len(jumps)
 
 

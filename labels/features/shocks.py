@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.ndimage import binary_dilation
 
-from labels.features.jumps import FEWEST_TURNS
+from labels.features.whole_turns import FEWEST_TURNS
 from physics.arrays import Array
 
 # How many times larger a shock is than the usual largest sample of a turn.

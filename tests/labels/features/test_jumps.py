@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from labels.features.jumps import FEWEST_TURNS, without_jumps
+from labels.features.jumps import without_jumps
+from labels.features.whole_turns import FEWEST_TURNS
 
 RATE, TURNS = 12_000.0, 50.0
 TIME = np.arange(24_000) / RATE

@@ -41,9 +41,9 @@ def assemble(scene: Scene) -> Contacts:
     """The contacts of `scene`; radial stiffness and damping include the contact angle [P14 Eq. 6, 9, 26]."""
     bearing, rig = scene.rig.bearing, scene.rig
     law = Law(
-        stiffness=bearing.radial_load_deflection,
-        exponent=bearing.exponent,
-        damping=rig.radial_film_damping,
+        stiffness=float(bearing.radial_load_deflection),
+        exponent=float(bearing.exponent),
+        damping=float(rig.radial_film_damping),
         no_tension=scene.no_tension,
     )
     return Contacts(_balls(scene), np.zeros((len(scene.cages), FRAME_COLUMNS)), law, _track(scene))

@@ -13,6 +13,7 @@ from scipy.interpolate import CubicSpline, PPoly
 from physics.arrays import Array
 from physics.checks import (
     require,
+    require_angle,
     require_between,
     require_finite,
     require_not_negative,
@@ -51,7 +52,7 @@ class CagePath:
         settle_tuples(self, "knot_values")
         require_positive("nominal_speed", self.nominal_speed, "rad/s")
         require_positive("duration", self.duration, "s")
-        require_finite("start_angle", self.start_angle, "rad")
+        require_angle("start_angle", self.start_angle)
         require_between("mean_slip", self.mean_slip, -0.2, 0.2)
         if self.knot_values:
             self._check_knots()

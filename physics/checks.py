@@ -7,11 +7,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection
-from numbers import Integral
+from numbers import Integral, Real
 from typing import Any
 
 # Of a resonance, as a share of the critical damping: above 1/√2 nothing stands out of a frequency response.
 HIGHEST_DAMPING = 0.7
+LARGEST_ANGLE = 1e6  # rad
 
 
 class InvalidParameter(ValueError):
@@ -28,10 +29,15 @@ def require(condition: bool, message: str, field: str = "") -> None:
         raise InvalidParameter(message, field)
 
 
+def _said(value: Any) -> str:
+    """A number as its digits, of whatever type, and anything else as it is written in Python."""
+    return str(value) if isinstance(value, Real) else repr(value)
+
+
 def _is_finite(value: Any) -> bool:
-    """Whether `value` is a finite number; text, None and whole numbers beyond all floats are none."""
+    """Whether `value` is a finite number; text, None, truth values and whole numbers beyond all floats are none."""
     try:
-        return math.isfinite(value)
+        return not isinstance(value, bool) and math.isfinite(value)
     except (TypeError, OverflowError):
         return False
 
@@ -41,7 +47,7 @@ def require_between(field: str, value: float, low: float, high: float, unit: str
     suffix = f" {unit}" if unit else ""
     require(
         _is_finite(value) and low <= value <= high,
-        f"{what or field} = {value!r}{suffix}; allowed: {low:g} to {high:g}{suffix}",
+        f"{what or field} = {_said(value)}{suffix}; allowed: {low:g} to {high:g}{suffix}",
         field,
     )
 
@@ -49,13 +55,18 @@ def require_between(field: str, value: float, low: float, high: float, unit: str
 def require_finite(field: str, value: float, unit: str = "", what: str = "") -> None:
     """Raise InvalidParameter unless `value` is finite."""
     suffix = f" {unit}" if unit else ""
-    require(_is_finite(value), f"{what or field} = {value!r}{suffix}; it must be finite", field)
+    require(_is_finite(value), f"{what or field} = {_said(value)}{suffix}; it must be finite", field)
+
+
+def require_angle(field: str, value: float) -> None:
+    """Raise InvalidParameter unless `value` (rad) is an angle of so few turns that floats still tell balls apart."""
+    require_between(field, value, -LARGEST_ANGLE, LARGEST_ANGLE, "rad")
 
 
 def require_count(field: str, value: int, low: int, high: int, what: str = "") -> None:
     """Raise InvalidParameter unless `value` is a whole number and low ≤ value ≤ high."""
     whole = isinstance(value, Integral) and not isinstance(value, bool)
-    message = f"{what or field} = {value!r}; allowed: whole numbers {low} to {high}"
+    message = f"{what or field} = {_said(value)}; allowed: whole numbers {low} to {high}"
     require(whole and low <= value <= high, message, field)
 
 
@@ -68,20 +79,20 @@ def require_one_of(field: str, value: str, allowed: Collection[str]) -> None:
 def require_positive(field: str, value: float, unit: str = "", what: str = "") -> None:
     """Raise InvalidParameter unless `value` is finite and above zero."""
     suffix = f" {unit}" if unit else ""
-    require(_is_finite(value) and value > 0.0, f"{what or field} = {value!r}{suffix}; it must be above 0", field)
+    require(_is_finite(value) and value > 0.0, f"{what or field} = {_said(value)}{suffix}; it must be above 0", field)
 
 
 def require_up_to(field: str, value: float, high: float, unit: str = "", what: str = "") -> None:
     """Raise InvalidParameter unless `value` is finite and 0 < value ≤ high."""
     suffix = f" {unit}" if unit else ""
-    message = f"{what or field} = {value!r}{suffix}; allowed: above 0, up to {high:g}{suffix}"
+    message = f"{what or field} = {_said(value)}{suffix}; allowed: above 0, up to {high:g}{suffix}"
     require(_is_finite(value) and 0.0 < value <= high, message, field)
 
 
 def require_not_negative(field: str, value: float, unit: str = "", what: str = "") -> None:
     """Raise InvalidParameter unless `value` is finite and zero or above."""
     suffix = f" {unit}" if unit else ""
-    message = f"{what or field} = {value!r}{suffix}; it must not be below 0"
+    message = f"{what or field} = {_said(value)}{suffix}; it must not be below 0"
     require(_is_finite(value) and value >= 0.0, message, field)
 
 

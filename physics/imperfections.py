@@ -5,7 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from physics.bearing import RACES
-from physics.checks import require_between, require_count, require_finite, require_one_of, require_up_to, settle_tuples
+from physics.checks import (
+    require_angle,
+    require_between,
+    require_count,
+    require_one_of,
+    require_up_to,
+    settle_tuples,
+)
 
 # m, far beyond a race that is still one.
 HIGHEST_WAVE = 1e-2
@@ -29,7 +36,7 @@ class Waviness:
         require_one_of("race", self.race, RACES)
         require_count("order", self.order, 1, 2000)
         require_up_to("amplitude", self.amplitude, HIGHEST_WAVE, "m", f"amplitude of order {self.order}")
-        require_finite("phase", self.phase, "rad")
+        require_angle("phase", self.phase)
 
 
 @dataclass(frozen=True)

@@ -37,22 +37,22 @@ class MotionModel(NamedTuple):
 
 
 def motion_model(scene: Scene) -> MotionModel:
-    """The numbers of the equations of motion of `scene`."""
+    """The numbers of the equations of motion of `scene`, as floats: kernels are compiled again for every other type."""
     rig, run = scene.rig, scene.operation
     return MotionModel(
-        inner_mass=rig.inner_mass,
-        outer_mass=rig.outer_mass,
-        resonator_mass=rig.resonator_mass,
-        support_stiffness=(rig.support_stiffness_x, rig.support_stiffness_y),
-        support_damping=(rig.support_damping_x, rig.support_damping_y),
-        resonator_stiffness=rig.resonator_stiffness,
-        resonator_damping=rig.resonator_damping,
-        load=run.load,
-        load_fluctuation=run.load_fluctuation,
-        fluctuation_phase=run.fluctuation_phase,
-        unbalance_force=run.unbalance_force,
-        unbalance_phase=run.unbalance_phase,
-        shaft_speed=run.shaft_speed,
+        inner_mass=float(rig.inner_mass),
+        outer_mass=float(rig.outer_mass),
+        resonator_mass=float(rig.resonator_mass),
+        support_stiffness=(float(rig.support_stiffness_x), float(rig.support_stiffness_y)),
+        support_damping=(float(rig.support_damping_x), float(rig.support_damping_y)),
+        resonator_stiffness=float(rig.resonator_stiffness),
+        resonator_damping=float(rig.resonator_damping),
+        load=float(run.load),
+        load_fluctuation=float(run.load_fluctuation),
+        fluctuation_phase=float(run.fluctuation_phase),
+        unbalance_force=float(run.unbalance_force),
+        unbalance_phase=float(run.unbalance_phase),
+        shaft_speed=float(run.shaft_speed),
     )
 
 

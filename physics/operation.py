@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from physics.checks import require_between, require_finite, require_not_negative, require_positive
+from physics.checks import require_angle, require_between, require_not_negative, require_positive
 
 # N, far beyond all bearings.
 HEAVIEST_LOAD = 1e7
@@ -30,9 +30,9 @@ class Operation:
         require_positive("shaft_speed", self.shaft_speed, "rad/s")
         require_between("load", self.load, -HEAVIEST_LOAD, HEAVIEST_LOAD, "N")
         require_not_negative("unbalance_force", self.unbalance_force, "N")
-        require_finite("unbalance_phase", self.unbalance_phase, "rad")
+        require_angle("unbalance_phase", self.unbalance_phase)
         require_between("load_fluctuation", self.load_fluctuation, 0.0, 10.0)
-        require_finite("fluctuation_phase", self.fluctuation_phase, "rad")
+        require_angle("fluctuation_phase", self.fluctuation_phase)
 
     @property
     def load_bound(self) -> float:

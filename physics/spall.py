@@ -10,9 +10,9 @@ from itertools import combinations, pairwise
 from physics.bearing import RACES, Bearing
 from physics.checks import (
     require,
+    require_angle,
     require_between,
     require_count,
-    require_finite,
     require_not_negative,
     require_one_of,
     require_up_to,
@@ -74,7 +74,7 @@ class Spall:
         require_one_of("race", self.race, RACES)
         require_count("row", self.row, 1, 2)
         require_one_of("profile", self.profile, PROFILES)
-        require_finite("angle", self.angle, "rad")
+        require_angle("angle", self.angle)
         require_up_to("extent", self.extent, math.pi, "rad")
         require_between("depth", self.depth, 0.0, DEEPEST, "m")
         require_not_negative("roughness", self.roughness, "m")
@@ -108,7 +108,8 @@ class Spall:
         )
         for place, value in enumerate(values, start=1):
             if not math.isfinite(value):
-                require_finite("roughness_values", value, "m", what=f"number {place} of {len(values)} roughness_values")
+                what = f"number {place} of {len(values)} roughness_values"
+                require_between("roughness_values", value, -DEEPEST, DEEPEST, "m", what)
         require(
             values[0] == 0.0 and values[-1] == 0.0,
             f"roughness_values begin with {values[0]!r} and end with {values[-1]!r} m; they must begin and end with 0",

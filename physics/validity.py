@@ -63,8 +63,7 @@ def inertia_force(scene: Scene, spall: Spall) -> float:
     """
     bearing = scene.rig.bearing
     way = _steepest_way(spall, bearing)
-    relative = scene.cage_of(spall.row).nominal_speed - scene.race_speed(spall.race)
-    return element_mass(bearing) * 2.0 * way.drop * (relative / way.arc) ** 2
+    return element_mass(bearing) * 2.0 * way.drop * (scene.crossing_speed(spall) / way.arc) ** 2
 
 
 class Descent(NamedTuple):

@@ -148,8 +148,11 @@ def speed_doubts(labels: Mapping[str, Any], turns: float, settings: Container[st
 def geometry_doubts(labels: Mapping[str, Any]) -> dict[str, str]:
     """Says so, with the figure, if the bearing of the record with these `labels` is smaller than bearings are, or by
     its orders alone has more balls; empty if not, or if nothing is known of it."""
-    pitch_mm, outer = 1e3 * labels.get("pitch_diameter", math.nan), labels.get("bpfo", math.nan)
-    balls = math.nan if "balls" in labels else outer + labels.get("bpfi", outer)
+    pitch_mm = 1e3 * labels.get("pitch_diameter", math.nan)
+    outer, inner = (labels.get(name, math.nan) for name in ("bpfo", "bpfi"))
+    # Of one order alone, NaN standing for the other, the fewest: balls are more than twice BPFO, and more than BPFI.
+    told = [math.nan] if "balls" in labels else [outer + inner, 2.0 * outer, inner]
+    balls = next((fewest for fewest in told if not math.isnan(fewest)), math.nan)
     if pitch_mm < SMALLEST_PITCH_MM:
         small = f"with a bearing of less than {SMALLEST_PITCH_MM:g} mm pitch diameter, as if in inches"
         return {small: f"{pitch_mm:.4g} mm"}

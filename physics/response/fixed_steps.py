@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from itertools import pairwise
 
 from physics.integrators.method_table import METHODS
 from physics.integrators.output import Grid
@@ -14,6 +15,7 @@ from physics.response.single_march import respond
 from physics.response.stability import require_stable, stable_substeps
 from physics.rms import relative_error
 from physics.scene import Scene
+from physics.spall import Spall
 from physics.statics.load_distribution import Equilibrium
 from physics.trace import Kept, Trace
 
@@ -98,14 +100,19 @@ def default_substeps(scene: Scene, rate: float) -> int:
 
 
 def steps_over_spalls(scene: Scene, rate: float) -> int:
-    """Fewest steps a sample of which a ball takes STEPS_OF_A_PIECE over every taper and floor."""
+    """Fewest steps a sample of which a ball takes STEPS_OF_A_PIECE over every taper, floor and piece of a table."""
     fastest = 0.0
     for spall in scene.spalls:
-        floor = spall.extent - spall.entry_taper - spall.exit_taper
-        speed = scene.crossing_speed(spall)
-        pieces = [piece for piece in (spall.entry_taper, floor, spall.exit_taper) if piece > ROUNDING * spall.extent]
-        fastest = max(fastest, speed / min(pieces))
+        shortest = min(piece for piece in _pieces(spall) if piece > ROUNDING * spall.extent)
+        fastest = max(fastest, scene.crossing_speed(spall) / shortest)
     return max(1, math.ceil(STEPS_OF_A_PIECE * fastest / rate))
+
+
+def _pieces(spall: Spall) -> list[float]:
+    """The arcs (rad) that a spall is made of."""
+    if spall.profile == "table":
+        return [end - begin for begin, end in pairwise(spall.table_angle)]
+    return [spall.entry_taper, spall.extent - spall.entry_taper - spall.exit_taper, spall.exit_taper]
 
 
 def _estimated(coarse: Trace, fine: Trace) -> Trace:

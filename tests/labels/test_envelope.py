@@ -3,7 +3,7 @@ import math
 import numpy as np
 import pytest
 
-from labels.band import holds_a_line
+from labels.band import components_in, holds_a_line
 from labels.envelope import FALLBACK_SHARES, band_envelope, default_band, squared_envelope_spectrum
 from physics import catalog
 
@@ -106,6 +106,15 @@ def test_a_band_that_holds_a_line_is_one_that_has_an_envelope(size):
                 band_envelope(np.ones(size), 44100.0, band)
     assert answers == {True, False}
     assert not holds_a_line((0.0, 1e-3), size, 44100.0)  # the mean is no line
+
+
+def test_a_band_that_begins_just_above_a_line_holds_the_next_one():
+    """Of 100 000 samples lines lie 0.441 Hz apart; divided by that, the number after 13 lines is still 13."""
+    above = float(np.nextafter(13.0 * 0.441, 6.0))
+    assert above * 100_000 / 44100.0 == 13.0
+    assert components_in((above, 14.0 * 0.441), 100_000, 44100.0) == slice(14, 15)
+    assert holds_a_line((above, 14.0 * 0.441), 100_000, 44100.0)
+    assert not holds_a_line((above, 13.9 * 0.441), 100_000, 44100.0)
 
 
 @pytest.mark.parametrize("window", ["hann", "none"])

@@ -64,7 +64,7 @@ def test_rows_of_one_cage_lie_side_by_side_and_rows_of_two_cages_apart(gearbox, 
 def test_the_kernels_read_the_cage_path_even_where_one_cage_has_fewer_knots(gearbox, build_scene, time):
     scene = build_scene(gearbox)
     fine = slipping_cage(scene, 2, 1.0, 0.02)
-    coarse = CagePath(scene.cage.nominal_speed, 0.5, 0.2, 0.02, 0.1, 0.0, (0.03, -0.04, 0.01, 0.02, -0.05, 0.04))
+    coarse = CagePath(scene.cage.nominal_speed, 0.5, 0.2, 0.02, 0.1, -0.1, (0.02, 0.03, -0.04, 0.01, 0.02, -0.05, 0.04))
     contacts = assemble(dataclasses.replace(scene, cage=coarse, second_cage=fine))
     set_time(contacts, time)
     for frame, cage in zip(contacts.frames, (coarse, fine), strict=True):

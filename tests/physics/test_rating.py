@@ -1,6 +1,7 @@
 """Static load ratings against a maker's catalogue and ISO 76's own scaling."""
 
 import dataclasses
+import math
 
 import pytest
 
@@ -26,3 +27,10 @@ def test_a_roller_bearing_is_rated_by_length_times_diameter():
     bearing = catalog.bearing("rexnord_za2115")
     # 44 N/mm² (1 - 8.407 cos 15.17° / 71.5) · 2 · 16 · 11 mm · 8.407 mm · cos 15.17°
     assert static_load_rating(bearing) == pytest.approx(111_414, rel=1e-3)  # computed by hand to four digits
+
+
+def test_a_ball_bearing_with_a_contact_angle_carries_its_cosine_less():
+    straight = catalog.bearing("skf_6205")
+    steep = dataclasses.replace(straight, contact_angle=math.radians(40.0))
+    # ISO 76: f0 i Z Db² cos α, cos 40° = 0.766044
+    assert static_load_rating(steep) == pytest.approx(0.766044 * static_load_rating(straight), rel=1e-6)  # digits

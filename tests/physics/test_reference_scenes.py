@@ -143,3 +143,18 @@ def ball_by_ball(changes):
 def test_the_perfect_healthy_gearbox_hardly_vibrates_along_the_load(reference_trace):
     along_load = reference_trace("G0", 0.5).acceleration[SCORED_FROM:, 1]
     assert rms(along_load) == pytest.approx(6e-6, abs=0.5e-6)  # m/s², an independent implementation: half a last digit
+
+
+@pytest.mark.parametrize(("name", "hertz", "ratio"), [("G1", 7.0, 7.12 / 38.75), ("F1s", 800.0 / 60.0, 8.0 / 45.0)])
+def test_a_faster_shaft_turns_its_cage_as_much_faster(name, hertz, ratio, reference_scene):
+    scene = reference_scene(name, 0.5, speed_factor=3.0)
+    shaft = 3.0 * 2.0 * math.pi * hertz
+    assert scene.operation.shaft_speed == pytest.approx(shaft, rel=1e-12)
+    assert scene.cage.nominal_speed == pytest.approx(0.5 * shaft * (1.0 - ratio), rel=1e-12)
+
+
+@pytest.mark.parametrize(("name", "degrees"), [("G1s", 2.0), ("F1s", 2.6)])
+def test_a_gradual_line_spall_has_a_long_entry_and_a_sharp_exit(name, degrees, reference_scene):
+    [spall] = reference_scene(name, 0.5).spalls
+    assert spall.entry_taper == pytest.approx(0.9 * math.radians(degrees), rel=1e-12)
+    assert spall.exit_taper == pytest.approx(0.1 * math.radians(degrees), rel=1e-12)

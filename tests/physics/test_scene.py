@@ -4,10 +4,13 @@ from contextlib import nullcontext
 
 import numpy as np
 import pytest
+from variants import changed
 
+from physics.assembly import assemble
 from physics.cage import CagePath
 from physics.checks import InvalidParameter
 from physics.imperfections import Imperfections, Waviness
+from physics.motion import motion_model
 from physics.operation import Operation
 from physics.paths.profile import build_path
 from physics.scene import Scene
@@ -131,6 +134,17 @@ def test_a_cage_faster_than_the_shaft_over_an_inner_spall_is_refused_with_both_s
         dataclasses.replace(healthy, spalls=(inner,), **{field: CagePath(share * shaft, 0.5)})
 
 
+def test_of_two_cages_the_one_over_the_inner_spall_is_named_whatever_the_other_does(healthy):
+    shaft = healthy.operation.shaft_speed
+    slow, fast = CagePath(0.4 * shaft, 0.5), CagePath(1.25 * shaft, 0.5)
+    for row, first, second, field in ((1, fast, slow, "cage"), (2, slow, fast, "second_cage")):
+        inner = dataclasses.replace(SPALL, race="inner", row=row)
+        with pytest.raises(InvalidParameter, match=rf"^{field} = 54\.9779 rad/s at its fastest") as refused:
+            dataclasses.replace(healthy, spalls=(inner,), cage=first, second_cage=second)
+        assert refused.value.field == field
+        dataclasses.replace(healthy, spalls=(inner,), cage=second, second_cage=first)
+
+
 def put_over_inner_spall(healthy, cage, refusal):
     """Put that cage over a spall of the inner race: refused with that message, or accepted if there is none."""
     inner = dataclasses.replace(SPALL, race="inner")
@@ -163,6 +177,21 @@ def test_a_cage_that_slips_and_reaches_the_speed_of_the_shaft_is_refused(healthy
     slipping = CagePath(shaft, 0.5, knot_step=0.25, knot_values=(0.0, -0.1, -0.1))
     assert slipping.fastest == shaft
     put_over_inner_spall(healthy, slipping, "or that speed without slip")
+
+
+@pytest.mark.parametrize("race", ["outer", "inner"])
+def test_balls_pass_a_spall_at_the_mean_speed_of_a_cage_that_slips(healthy, race):
+    spall = dataclasses.replace(SPALL, race=race)
+    scene = dataclasses.replace(healthy, spalls=(spall,), cage=dataclasses.replace(healthy.cage, mean_slip=0.1))
+    # 2π · 7 Hz of the shaft; the cage turns 0.9 · 0.5 (1 − 7.12/38.75) times as fast.
+    shaft, cage = 43.9823, 0.9 * 17.9505
+    expected = cage if race == "outer" else shaft - cage
+    assert scene.crossing_speed(spall) == pytest.approx(expected, rel=1e-5)  # digits
+
+
+def test_no_sample_is_lost_to_the_rounding_of_duration_times_rate(healthy):
+    assert 0.29 * 100.0 < 29.0  # in binary
+    assert dataclasses.replace(healthy, cage=dataclasses.replace(healthy.cage, duration=0.29)).samples(100.0) == 29
 
 
 def test_a_race_of_another_name_has_no_speed(healthy):
@@ -245,3 +274,27 @@ def test_a_table_that_ends_in_a_wall_as_high_as_the_ball_s_centre_is_refused(hea
 def test_a_path_in_closed_form_may_be_as_short_as_it_likes(healthy):
     for profile in ("tukey", "ball_path"):
         dataclasses.replace(healthy, spalls=(Spall("outer", 1, 4.0, 1e-12, 1e-5, profile=profile),))
+
+
+ANGLES = {
+    "angle": lambda scene: changed(scene, spall={"angle": 1e20}),
+    "start_angle": lambda scene: dataclasses.replace(scene.cage, start_angle=1e20),
+    "unbalance_phase": lambda scene: changed(scene, operation={"unbalance_phase": 1e20}),
+    "fluctuation_phase": lambda scene: changed(scene, operation={"fluctuation_phase": -1e20}),
+}
+
+
+@pytest.mark.parametrize("field", ANGLES)
+def test_an_angle_of_more_turns_than_floats_tell_apart_is_refused(field, reference_scene):
+    """A spall at 1e20 rad was looked for without end."""
+    with pytest.raises(InvalidParameter, match=f"^{field} = .*1e\\+20 rad; allowed: -1e"):
+        ANGLES[field](reference_scene("G1", 0.01))
+
+
+def test_numbers_of_every_type_reach_the_kernels_as_floats(reference_scene):
+    """They are compiled once more, for a minute, for every other type."""
+    scene = reference_scene("G1", 0.01)
+    other = changed(scene, operation={"load": np.float32(300.0)}, rig={"outer_mass": np.int64(2), "inner_mass": 3})
+    for compiled in (motion_model(other), assemble(other).law):
+        assert {type(value) for value in compiled if not isinstance(value, tuple | bool)} == {float}
+    assert motion_model(other).load == 300.0

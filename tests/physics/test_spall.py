@@ -102,3 +102,12 @@ def test_a_table_may_reach_beyond_its_spall_by_what_degrees_are_rounded_to():
 def test_tapers_may_fill_the_spall_exactly():
     full = dataclasses.replace(SPALL, entry_taper=0.09, exit_taper=0.01)
     assert full.entry_taper + full.exit_taper == pytest.approx(full.extent)
+
+
+@pytest.mark.parametrize("race", ["outer", "inner"])
+@pytest.mark.parametrize("tapers", [(0.02, 0.0), (0.0, 0.02), (0.02, 0.02)])
+def test_a_ball_is_rolled_over_a_gap_with_a_taper_at_either_end(race, tapers):
+    gap = dataclasses.replace(SPALL, race=race, entry_taper=0.0, exit_taper=0.0, profile="ball_path")
+    assert gap.rolled_arc == 0.0
+    entry, leave = tapers
+    assert dataclasses.replace(gap, entry_taper=entry, exit_taper=leave).rolled_arc == gap.extent

@@ -11,7 +11,7 @@ from physics.integrators.output import STEPS
 from physics.request import FixedSteps, Reference, Simpler
 from physics.simulate import simulate
 from physics.spall import Spall
-from physics.trace import Kept
+from physics.trace import ContactChanges, Kept
 
 RATE = 65536.0
 LINE = Spall("outer", 1, 4.712388980384690, 0.035, 12e-6, 0.005, 0.005)
@@ -105,3 +105,11 @@ def test_the_step_of_the_modal_method_is_the_mean_over_the_march(reference_scene
 def test_the_share_of_tension_is_only_known_where_the_forces_of_balls_are_followed(solution, share, reference_scene):
     trace = simulate(reference_scene("G1", 0.01), RATE, solution)
     assert trace.tension_share == pytest.approx(share, nan_ok=True)
+
+
+def test_changes_before_an_end_are_those_before_it_and_not_at_it():
+    """What happens at the instant of the sample behind the last one belongs to that sample."""
+    times, ones, made = np.array([0.1, 0.2, 0.3]), np.ones(3, np.int16), np.array([True, False, True])
+    early = ContactChanges(times, ones, 2 * ones, made, np.zeros((1, 2), bool)).before(0.2)
+    assert (early.time.tolist(), early.made.tolist()) == ([0.1], [True])
+    assert (early.row.tolist(), early.ball.tolist()) == ([1], [2])

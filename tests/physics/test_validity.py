@@ -10,9 +10,11 @@ from physics.cage import CagePath
 from physics.catalog import rig
 from physics.imperfections import Imperfections
 from physics.operation import Operation
+from physics.outcome import StaticOutcome
 from physics.rating import static_load_rating
 from physics.scene import Scene
 from physics.spall import Spall
+from physics.statics.load_distribution import equilibrium
 from physics.validity import assess, centrifugal_force, element_mass, inertia_force, peak_ball_load
 
 DOWN = math.radians(270)
@@ -78,6 +80,14 @@ def test_the_balls_turn_as_fast_as_their_cage_says_and_not_as_the_shaft_does(gea
     assert inertia_force(dragged, outer) == pytest.approx(9.0 * inertia_force(scene, outer), rel=2e-4)
     ratio = (3.0 * 17.951 - 43.982) / (43.982 - 17.951)  # against the shaft
     assert inertia_force(dragged, inner) == pytest.approx(ratio**2 * inertia_force(scene, inner), rel=1e-3)
+
+
+@pytest.mark.parametrize(("race", "share"), [("outer", 0.9), ("inner", (43.982 - 0.9 * 17.951) / (43.982 - 17.951))])
+def test_balls_of_a_slipping_cage_pass_an_outer_spall_slower_and_an_inner_one_faster(gearbox, race, share):
+    spall = dataclasses.replace(line(1.3), race=race)
+    rolling = scene_of(gearbox, (spall,))
+    slipping = dataclasses.replace(rolling, cage=dataclasses.replace(rolling.cage, mean_slip=0.1))
+    assert inertia_force(slipping, spall) == pytest.approx(share**2 * inertia_force(rolling, spall), rel=1e-4)
 
 
 @pytest.mark.parametrize("cage", ["cage", "second_cage"])
@@ -341,6 +351,14 @@ def test_a_preload_or_an_oversized_ball_that_dents_the_races_is_noted(gearbox):
         assert note.startswith("the most loaded ball carries 1")
         assert "more than at the static rating of the bearing (3257 N)" in note
     assert gearbox.bearing.load_deflection * 1e-3**1.5 == pytest.approx(1.6e5, rel=0.03)  # of 1 mm alone
+
+
+def test_where_no_position_carries_the_load_no_ball_has_one(gearbox):
+    soft = dataclasses.replace(gearbox.bearing, load_deflection=1e3, clearance=-1e-3)
+    scene = scene_of(dataclasses.replace(gearbox, bearing=soft))
+    # 346 N would take half a metre; in the middle the preload alone would press each ball with 0.03 N.
+    assert equilibrium(scene, np.zeros(1)).outcome(0) is StaticOutcome.NO_EQUILIBRIUM
+    assert peak_ball_load(scene) == 0.0
 
 
 def test_a_contact_angle_is_noted_with_its_cosine():

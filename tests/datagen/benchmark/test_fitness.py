@@ -31,7 +31,7 @@ def test_what_is_unknown_is_said_to_be_unknown():
 # 120 rpm are 2 turns a second; 6000 rpm turn 9 times in 0.09 s, which is too short nevertheless.
 @pytest.mark.parametrize(
     ("seconds", "rpm", "reason"),
-    [(0.49, 120.0, TOO_SHORT), (0.51, 120.0, ""), (0.09, 6000.0, TOO_SHORT), (0.11, 6000.0, "")],
+    [(0.49, 120.0, TOO_SHORT), (0.51, 120.0, ""), (0.09, 6000.0, TOO_SHORT), (0.1, 6000.0, "")],
 )
 def test_less_than_a_turn_or_a_tenth_of_a_second_is_too_short(seconds, rpm, reason):
     assert why_unfit(seconds, rpm) == reason

@@ -82,6 +82,16 @@ def test_kept_and_taken_up_again_they_are_what_the_corpus_gives(tiny_corpus, kep
     assert kept.recipe == source.recipe
 
 
+def test_records_of_the_split_test_are_not_kept(divided, tmp_path, short_records_are_judged):
+    labels = Corpus(divided).labels.set_index("record")
+    assert "test" in set(labels["split"])
+    kept_of = keep(divided, tmp_path / "rows.npz")
+    with np.load(tmp_path / "rows.npz") as kept:
+        records = np.unique(kept["record"])
+    assert set(labels.loc[records, "split"]) == {"train", "validation"}
+    assert kept_of == np.count_nonzero(labels["split"] != "test")
+
+
 def test_the_first_records_alone_are_learned_from():
     kept = KeptRows(first=40)
     records = KeptRows().features(SILENT).rows.record

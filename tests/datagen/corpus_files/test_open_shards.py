@@ -232,3 +232,23 @@ def test_a_corpus_closes_its_files_at_the_end_of_its_block_whatever_happens_ther
     assert not corpus.open_files
     assert np.isfinite(corpus.waveform(0)).all()  # and opens them again
     corpus.close()
+
+
+def test_a_file_that_is_written_anew_in_its_own_place_is_opened_again(tmp_path: Path) -> None:
+    """As by a copy over it, which keeps the inode: of two files of one size only the time tells them apart."""
+    (tmp_path / "shards").mkdir()
+    old, new = tmp_path / "shards" / "a.nc", tmp_path / "b.nc"
+    for path, value in ((old, 1.0), (new, 2.0)):
+        with netCDF4.Dataset(path, "w") as file:
+            file.value = value
+    assert old.stat().st_size == new.stat().st_size
+    shards = OpenShards(tmp_path)
+    with shards.reading("shards/a.nc") as before:
+        assert before.value == 1.0
+    place = old.stat().st_ino
+    shutil.copyfile(new, old)
+    os.utime(old, (0, 0))
+    assert old.stat().st_ino == place
+    with shards.reading("shards/a.nc") as after:
+        assert (after.value, before.isopen()) == (2.0, False)
+    shards.close()

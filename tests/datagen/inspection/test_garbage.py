@@ -148,6 +148,11 @@ INDICES = {
     "no place": (lambda text: text.replace(".nc,0", ".nc,NaN", 1), "position = nan is not a place"),
     "no record": (lambda text: text.replace("\n4,", "\nNaN,", 1), "line 6: not the index of a corpus: record = nan is"),
     "an infinite number": (lambda text: text.replace("420.0", "inf", 1), 'speed_rpm = "inf" is not a number'),
+    "no rate": (
+        lambda text: text.replace(",32768.0,", ",0.0,", 1),
+        "line 2: not the index of a corpus: rate_hz = 0.0 is",
+    ),
+    "no length": (lambda text: text.replace(",0.04998", ",-0.04998", 1), "duration_s = -0.04998"),
     "another word": (lambda text: text.replace(",healthy,", ",well,", 1), "condition = well is none of its values"),
     "bytes": (lambda text: text.replace("gearbox", "\xff", 1), "not a table of text"),
 }

@@ -114,6 +114,12 @@ def test_a_label_or_setting_that_cannot_be_is_refused(
     assert message in refusal(bring, text + more + "\n", tmp_path)
 
 
+def test_a_scale_of_nothing_is_told_of_the_file_that_holds_it(bring: Bring, mat: Mat, tmp_path: Path) -> None:
+    mat("a.mat", gain=0.0)
+    told = refusal(bring, GOOD + 'scale = {variable = "gain"}\n', tmp_path)
+    assert told == f"{tmp_path / 'a.mat'}: scale = 0.0; allowed: any number but 0"
+
+
 @pytest.mark.parametrize(
     ("samples", "message"),
     [

@@ -206,6 +206,17 @@ def test_a_bearing_stated_in_inches_comes_in_with_a_warning(
             "bpfo = 27.1\nbpfi = 33.9\n",
             "1 with a bearing of more than 60 balls, as if `bpfo` and `bpfi` were in Hz: a (61 balls)\n",
         ),
+        # One order alone: there are more balls than twice BPFO, and than BPFI.
+        (
+            "bpfo = 76.36\n",
+            "1 with a bearing of more than 60 balls, as if `bpfo` and `bpfi` were in Hz: a (152.7 balls)\n",
+        ),
+        (
+            "bpfi = 123.64\n",
+            "1 with a bearing of more than 60 balls, as if `bpfo` and `bpfi` were in Hz: a (123.6 balls)\n",
+        ),
+        ("bpfo = 29.9\n", ""),
+        ("bpfi = 59.9\n", ""),
         ("bearing = {balls = 64, ball_diameter_mm = 8, pitch_diameter_mm = 300}\n", ""),
     ],
 )

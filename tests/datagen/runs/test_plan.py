@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from datagen.errors import BadInput
-from datagen.recipes.recipe import Recipe
+from datagen.recipes.recipe import Recipe, load_recipe
 from datagen.records.profile_grid import PROFILE_POINTS
 from datagen.records.stiffness_axis import stiffness_axis
 from datagen.runs.plan import PlannedShard, longest_first, needed_bytes, plan_shards, selection, stored_bytes
@@ -36,6 +36,18 @@ def test_records_of_different_rigs_or_stored_signals_never_share_a_shard(tiny: R
         assert len({record < 8 for record in shard.records}) == 1
     forces = [shard.records for shard in plan_shards(tiny, tiny.count) if "contact_force" in shard.stored]
     assert sum(map(len, forces)) == 4  # gearbox healthy, line, extended; fan line
+
+
+def test_forces_are_kept_of_the_first_of_a_rig_and_condition_whatever_its_part(
+    tiny_recipe: Path, tmp_path: Path
+) -> None:
+    (tmp_path / "a.toml").write_text(tiny_recipe.read_text().replace('machine.rig = "fan"', 'machine.rig = "gearbox"'))
+    recipe = load_recipe(tmp_path / "a.toml")
+    conditions = [draw_scenario(recipe, record).condition for record in range(recipe.count)]
+    assert set(conditions[:8]) == {"healthy", "line", "extended"}  # so that the second part, on the same rig, adds none
+    planned = plan_shards(recipe, recipe.count)
+    kept = [record for shard in planned if "contact_force" in shard.stored for record in shard.records]
+    assert sorted(kept) == sorted(map(conditions.index, ("healthy", "line", "extended")))
 
 
 def test_the_size_of_a_record_counts_every_stored_signal(tiny: Recipe) -> None:

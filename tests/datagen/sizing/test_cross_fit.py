@@ -32,4 +32,5 @@ def test_the_most_is_as_large_as_the_error_of_what_is_answered_allows() -> None:
     assert CrossFit(error, expected, most=0.25).most_within(0.04) == 0.25
     assert CrossFit(error, expected, most=1.0).most_within(1.0) == 1.0
     assert CrossFit(error, expected, most=1.0).most_within(0.01) == 0.1
+    assert CrossFit(error, expected, most=0.3).most_within(0.039) == 0.2  # what is at the limit is given a size
     assert CrossFit(np.zeros(0), np.zeros(0), most=0.4).most_within(0.01) == 0.4

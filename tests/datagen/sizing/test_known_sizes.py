@@ -108,7 +108,7 @@ def test_without_a_known_bearing_the_rig_is_the_machine(corpus: Path) -> None:
     assert machine_of("unknown", "unknown") == machine_of("", "") == ""
 
 
-def test_two_known_sizes_of_a_machine_count_by_their_geometric_mean() -> None:
+def test_known_sizes_of_a_machine_count_by_their_geometric_mean() -> None:
     known = KnownSize(0, "one", 2.5, 2.0, 1.002)
     shared = shared_factors([known, replace(known, record=1, factor=0.999), replace(known, record=2, machine="two")])
     mean = math.sqrt(1.002 * 0.999)
@@ -119,6 +119,10 @@ def test_two_known_sizes_of_a_machine_count_by_their_geometric_mean() -> None:
         1,
         1,
     ]
+    three = shared_factors(
+        [replace(known, record=record, factor=factor) for record, factor in enumerate((1.0, 1.0, 8.0))]
+    )
+    assert [one.factor for one in three] == pytest.approx([2.0, 2.0, 2.0], rel=1e-12)
 
 
 def test_the_effect_of_a_known_size_is_the_error_of_the_others_of_its_machine_without_and_with_it(

@@ -113,6 +113,31 @@ def test_every_record_is_heard_as_stored_and_once_whole_without_noise(snr_db: fl
     )
 
 
+def test_the_part_of_a_clean_record_is_heard_with_noise_as_often_as_without() -> None:
+    clean = np.random.default_rng(3).standard_normal((4000, 2))
+    sized = replace(record(np.zeros(0), np.zeros(0), 0.2), acceleration=clean, labels={"snr_db": math.nan})
+    noisy = 0
+    for number in range(64):
+        part = _excerpts(replace(sized, labels=sized.labels | {"record": number}, record=number))[2]
+        noisy += not np.array_equal(part.signal, clean[part.start : part.start + part.signal.size, 1])
+    assert 16 < noisy < 48  # of 64 even draws, four deviations of 4 to either side
+
+
+def test_the_truth_of_a_part_is_told_from_where_it_begins(heard: tuple[Evidence, Array]) -> None:
+    """The same as of a whole record, though it begins in the middle of the sixth pass of a longer one, whose passes
+    before that had another lag."""
+    evidence, first = heard
+    period = MACHINE.pass_periods()["outer"]
+    start = round(5.5 * period * RATE)
+    before, later = period * np.arange(0.1, 5.0), first + start / RATE
+    longer = record(np.append(before, later), np.append(before + 0.5 * LAG, later + LAG), 0.2)
+    made = trial(longer, evidence, Excerpt(np.zeros(32768), start, False, False))
+    whole = trial(record(first, first + LAG, 0.2), evidence, Excerpt(np.zeros(32768), 0, True, True))
+    assert made.true_lag == pytest.approx(LAG * RATE)
+    np.testing.assert_allclose(made.quality, whole.quality, atol=1e-6)
+    assert made.quality.max() > 0.9
+
+
 def test_a_record_without_events_or_heard_on_the_wrong_race_has_no_pair_to_be_found(
     heard: tuple[Evidence, Array],
 ) -> None:

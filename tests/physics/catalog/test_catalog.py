@@ -151,6 +151,7 @@ def test_numbers_that_contradict_their_source_are_noted_with_both_values(rows):
     )
     assert notes["fan", "upper mode along y (printed)"].startswith("source prints 1.99e3, its numbers give 1996.4")
     assert not any("(agrees)" in notes[key] for key in list(notes) if key[1].startswith("sixth harmonic"))
+    assert notes["mfpt", "bpfo (printed)"].endswith("; from inches rounded to millimetres")
     for agreed in ("bpfo", "resonator_frequency", "resonator_damping_ratio", "lower mode along y"):
         assert "(agrees)" in notes["fan", f"{agreed} (printed)"]
 

@@ -57,6 +57,23 @@ def test_two_steps_are_asked_for_over_the_shortest_piece_of_a_spall(reference_sc
     assert steps_over_spalls(sharp, RATE) == math.ceil(2.0 * speed / (1e-9 * RATE)) > MOST_HELD_AGAINST
 
 
+def test_the_exit_counts_as_the_entry_does(reference_scene):
+    scene = reference_scene("F1", 0.02)
+    for edge in ("entry_taper", "exit_taper"):
+        sharp = changed(scene, spall={edge: 1e-6})
+        # Two steps over 1e-6 rad at the cage speed of 34.441 rad/s.
+        assert steps_over_spalls(sharp, RATE) == math.ceil(2.0 * 34.441 / (1e-6 * RATE))
+
+
+def test_every_piece_of_a_table_counts(reference_scene):
+    """Of nine pieces over 0.09 rad the shortest is 2e-4 rad; two steps over that at the cage speed of 34.441 rad/s."""
+    angles = (-0.045, -0.035, -0.025, -0.015, -0.005, 0.005, 0.0052, 0.015, 0.03, 0.045)
+    depths = (0.0, 2e-6, 1e-6, 5e-6, 4e-6, 9e-6, 8.9e-6, 3e-6, 2e-6, 0.0)
+    measured = {"profile": "table", "extent": 0.09, "entry_taper": 0.0, "exit_taper": 0.0, "table_angle": angles}
+    scene = changed(reference_scene("F1", 0.02), spall=measured | {"table_depth": depths, "depth": 9e-6})
+    assert steps_over_spalls(scene, RATE / 16.0) == math.ceil(2.0 * 34.441 / (2e-4 * RATE / 16.0)) == 85
+
+
 def test_a_floor_that_two_tapers_leave_nothing_of_is_no_piece(reference_scene):
     scene = changed(reference_scene("F1", 0.02), spall={"extent": 0.8, "entry_taper": 0.5, "exit_taper": 0.3})
     spall = scene.spalls[0]

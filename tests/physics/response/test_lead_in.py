@@ -17,7 +17,7 @@ from physics.response.lead_in import from_start, respond_behind, started_earlier
 from physics.rms import relative_error, rms
 from physics.simulate import simulate
 from physics.statics.load_distribution import equilibrium, load_vector
-from physics.trace import Kept
+from physics.trace import ContactChanges, Kept, Trace
 
 RATE = 65536.0
 LEAD_IN = 0.1
@@ -144,6 +144,18 @@ def test_the_balls_that_touch_when_the_record_begins_are_those_that_carry_then()
     assert np.any(trace.changes.initial != start.changes.initial)
     assert trace.changes.time.min() >= 0.0
     assert trace.changes.time.max() < 0.05
+
+
+def test_of_changes_those_before_0_are_in_the_first_contacts_and_that_at_0_is_still_logged():
+    balls, made = np.array([1, 2, 2, 1], np.int16), np.array([False, True, False, True])
+    changes = ContactChanges(
+        np.array([-1.5, -1.0, 0.0, 1.0]), np.ones(4, np.int16), balls, made, np.array([[True, False]])
+    )
+    trace = Trace(1.0, np.arange(-2.0, 3.0), np.zeros((5, 2)), changes, "none", "none", 1.0, 0.0, 0.0)
+    recorded = from_start(trace)
+    assert recorded.time.tolist() == [0.0, 1.0, 2.0]
+    assert recorded.changes.time.tolist() == [0.0, 1.0]
+    assert recorded.changes.initial.tolist() == [[False, True]]
 
 
 def test_changes_of_contact_stay_with_the_forces_that_they_change():

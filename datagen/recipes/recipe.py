@@ -27,7 +27,7 @@ from datagen.recipes.signal_settings import Signal
 from datagen.recipes.split_settings import Split
 from datagen.recipes.store_settings import Store
 from datagen.settings.problems import bad_settings
-from datagen.settings.table import OneOf, Prose, Table, named_differently, refuse
+from datagen.settings.table import CorpusName, OneOf, Prose, Table, named_differently, refuse
 from datagen.settings.toml_file import read_toml
 from physics.words import CONTACT_LAWS
 
@@ -89,7 +89,7 @@ class Part(Table):
 class Recipe(Table):
     """A corpus before it is drawn: `load_recipe` reads one from a TOML file."""
 
-    name: Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]*$", max_length=60)]
+    name: CorpusName
     """Name of the corpus: letters, digits, - and _."""
     title: Prose = ""
     """One line for people."""

@@ -13,7 +13,7 @@ from datagen.recordings.settings import RecordingSettings
 from datagen.recordings.spec_files import find_spec
 from datagen.recordings.values import word
 from datagen.settings.problems import bad_settings
-from datagen.settings.table import Prose, Table, named_differently, refuse
+from datagen.settings.table import CorpusName, Prose, Table, named_differently, refuse
 from datagen.settings.toml_file import read_toml
 
 Patterns = Annotated[tuple[str, ...], Field(min_length=1, strict=False)]
@@ -84,7 +84,7 @@ class Recording(RecordingSettings):
 class Spec(Table):
     """An import before any file is opened: `load_spec` reads one from a TOML file."""
 
-    name: Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]*$", max_length=60)]
+    name: CorpusName
     """Name of the corpus: letters, digits, - and _."""
     title: Prose = ""
     """One line for people."""

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from typing import Annotated, Any
 from unicodedata import category
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from datagen.distributions.kinds import (
@@ -212,6 +212,8 @@ def prose(text: str) -> str:
 
 
 Prose = Annotated[str, AfterValidator(prose)]
+# A word that needs no quotes anywhere.
+CorpusName = Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]*$", max_length=60)]
 
 
 def rising(orders: tuple[int, int]) -> tuple[int, int]:

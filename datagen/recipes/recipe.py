@@ -27,7 +27,7 @@ from datagen.recipes.signal_settings import Signal
 from datagen.recipes.split_settings import Split
 from datagen.recipes.store_settings import Store
 from datagen.settings.problems import bad_settings
-from datagen.settings.table import CorpusName, OneOf, Prose, Table, named_differently, refuse
+from datagen.settings.table import CorpusName, OneOf, PartName, Prose, Table, named_differently, refuse
 from datagen.settings.toml_file import read_toml
 from physics.words import CONTACT_LAWS
 
@@ -38,7 +38,7 @@ Count = Annotated[int, Field(ge=1, le=10_000_000)]
 class Part(Table):
     """A number of records drawn alike, on virtual machines of their own."""
 
-    name: Annotated[str, Field(min_length=1, max_length=80)]
+    name: PartName
     """Name of the part, stored with each of its records."""
     records: Count
     """Number of records."""

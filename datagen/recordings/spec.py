@@ -13,7 +13,7 @@ from datagen.recordings.settings import RecordingSettings
 from datagen.recordings.spec_files import find_spec
 from datagen.recordings.values import word
 from datagen.settings.problems import bad_settings
-from datagen.settings.table import CorpusName, Prose, Table, named_differently, refuse
+from datagen.settings.table import CorpusName, PartName, Prose, Table, named_differently, refuse
 from datagen.settings.toml_file import read_toml
 
 Patterns = Annotated[tuple[str, ...], Field(min_length=1, strict=False)]
@@ -38,7 +38,7 @@ class Override(RecordingSettings):
 class Recording(RecordingSettings):
     """Files laid out alike. They are found by pattern, or listed in a table, or both."""
 
-    name: Annotated[str, Field(min_length=1, max_length=80)]
+    name: PartName
     """Name of this part of the corpus, stored with each of its records."""
     files: str | Patterns | None = None
     """Patterns of files below the root; ** is any number of folders."""

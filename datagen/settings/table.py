@@ -214,6 +214,7 @@ def prose(text: str) -> str:
 Prose = Annotated[str, AfterValidator(prose)]
 # A word that needs no quotes anywhere.
 CorpusName = Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]*$", max_length=60)]
+PartName = Annotated[str, Field(min_length=1, max_length=80), AfterValidator(prose)]
 
 
 def rising(orders: tuple[int, int]) -> tuple[int, int]:

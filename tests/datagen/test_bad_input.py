@@ -163,6 +163,13 @@ CASES = {
         "summary = ",
         "holds the control character U+009B; allowed: text without control characters",
     ),
+    "a name of a part that steers terminals": (
+        'name = "a"',
+        'name = "a\\u001b[31m"',
+        7,
+        "part[1].name = ",
+        "holds the control character U+001B; allowed: text without control characters",
+    ),
     "half a record": (
         "records = 2",
         "records = 2.5",

@@ -81,6 +81,10 @@ def test_given_settings_come_in_the_order_in_which_they_are_declared_however_the
             'name = "a"\ntitle = "x\\u001b[31mred"\n[[recording]]\nname = "x"\nfiles = "a"\n',
             "holds the control character U+001B; allowed: text without control characters",
         ),
+        (
+            'name = "a"\n[[recording]]\nname = "x\\u0007"\nfiles = "a"\n',
+            "holds the control character U+0007; allowed: text without control characters",
+        ),
         *(
             (f"name = 'a'\n[[recording]]\nname = 'x'\nfiles = 'a'\n{line}\n", message)
             for line, message in (

@@ -49,7 +49,7 @@ def read_rows(
 
 
 def read_records(
-    folder: Path, records: NDArray[np.int64], reading: Reading, workers: int, count: Count = ignore
+    folder: Path, records: NDArray[np.int64], reading: Reading, workers: int, count: Count
 ) -> dict[int, RecordRows]:
     """Rows of each of the `records` of a corpus, made by several processes, each with one waveform in memory; `count`
     is called with how many are done."""

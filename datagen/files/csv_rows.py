@@ -30,7 +30,7 @@ class NotText(BadInput):
     """The bytes of the file are no text in its encoding."""
 
 
-def open_text(path: Path, encoding: str = UTF_8) -> IO[str]:
+def open_text(path: Path, encoding: str) -> IO[str]:
     """The text file at `path`, opened with its line ends as they are, without what fills its end; in UTF-8 a byte order
     mark is no matter, and text compressed by gzip is read as it unpacks: to an error of BROKEN if it is damaged."""
     known = "utf-8-sig" if codecs.lookup(encoding).name == UTF_8 else encoding

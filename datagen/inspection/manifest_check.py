@@ -37,9 +37,7 @@ def recipe_of(manifest: Manifest, folder: Path) -> tuple[Recipe | None, list[str
     return recipe, []
 
 
-def differences(
-    manifest: Manifest, folder: Path, sidecars: Sequence[Sidecar], compare_sums: bool = True
-) -> Iterator[str]:
+def differences(manifest: Manifest, folder: Path, sidecars: Sequence[Sidecar], compare_sums: bool) -> Iterator[str]:
     """In what a manifest differs from what the `sidecars` of all shards of the corpus `folder` add up to; without
     `compare_sums` only whether it knows all records, as where it is known to lack shards."""
     made = {record for sidecar in sidecars for record in sidecar.records}

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 MOST_ATTEMPTS = 200
 
 
-def given_up(recipe: Recipe, part: Part, what: str, redraws: list[Redraw], kind: Combination | None = None) -> BadInput:
+def given_up(recipe: Recipe, part: Part, what: str, redraws: list[Redraw], kind: Combination | None) -> BadInput:
     """The error for a part that can hardly be drawn: it names the settings behind the last refusal, and the reason.
 
     `what` is the record or machine, and `kind` what it was meant to be (condition, race and profile), if that was

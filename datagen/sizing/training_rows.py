@@ -73,7 +73,7 @@ class Trial:
         return replace(self, situation=self.situation.without_load())
 
 
-def trials(folder: Path, splits: tuple[str, ...], workers: int = 1) -> list[Trial]:
+def trials(folder: Path, splits: tuple[str, ...], workers: int) -> list[Trial]:
     """Every trial of the records of `splits` in a corpus that stores clean signals."""
     from joblib import delayed
 

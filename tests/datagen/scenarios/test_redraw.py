@@ -93,7 +93,7 @@ def test_the_line_of_the_key_is_told_that_gave_the_last_impossible_value(tmp_pat
     with pytest.raises(InvalidParameter) as refused:
         REFUSED[key]()
     redraws = [Redraw("machine", k, refused.value.field, str(refused.value)) for k in range(MOST_ATTEMPTS)]
-    words = str(given_up(recipe, recipe.part[0], "machine 0", redraws))
+    words = str(given_up(recipe, recipe.part[0], "machine 0", redraws, None))
     lines = path.read_text(encoding="utf-8").splitlines()
     line = 1 + next(k for k, text in enumerate(lines) if text.startswith(f"{key} ="))
     assert re.search(rf"try\.toml, line {line}: part\[1\]\.\S*\b{key} = ", words)

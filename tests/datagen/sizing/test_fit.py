@@ -266,7 +266,7 @@ def test_guesses_learn_the_lag_less_whole_passes_and_reach_over_the_records_give
 
 @pytest.mark.slow
 def test_trials_know_which_pairs_are_the_events(small_ladder: Path) -> None:
-    made = trials(small_ladder, ("train",))
+    made = trials(small_ladder, ("train",), 1)
     whole = [trial for trial in made if trial.evidence.alignment.place.max() > 0.8 * 0.3 * 65536]
     assert len([trial for trial in made if trial.stored]) == 24  # as stored
     assert len(whole) == 2 * 24  # and with noise

@@ -16,6 +16,7 @@ from make_draws import ODD, require_different_names
 from marked_tables import write_marked
 from numpy.typing import NDArray
 
+from datagen.errors import BadInput
 from datagen.files.text_tables import markdown_table
 from labels.classifier.scores import FEWEST_A_SIDE, balanced_accuracy, exact_interval, paired_difference
 from physics.bearing import RACES
@@ -219,9 +220,11 @@ def simulated(report: dict[str, Any], model: str) -> str:
 
 
 def main(paths: list[Path]) -> None:
-    """Write the tables; raises BadInput where two reports lie in folders of one name."""
+    """Write the tables; raises BadInput without a report, and where two of them lie in folders of one name."""
     draws = [path for path in paths if path.name == "draws.json"]
     others = [path for path in paths if path not in draws]
+    if not others:
+        raise BadInput("no report of the main run", field="FILE", allowed="its report.json before all others")
     require_different_names(path.absolute().parent for path in others)
     reports = {path.absolute().parent.name: json.loads(path.read_text()) for path in others}
     first = next(iter(reports.values()))

@@ -164,9 +164,14 @@ def finished_shards(folder: Path) -> Iterator[Sidecar]:
 
     Copies of a sidecar under another name do not count.
     """
+    return (sidecar for sidecar in sidecars(folder) if is_whole(folder, sidecar))
+
+
+def sidecars(folder: Path) -> Iterator[Sidecar]:
+    """Every valid sidecar of the corpus `folder`, by number, whatever has become of its file."""
     for path in by_number(shards_folder(folder).glob("shard_*.json")):
         sidecar = read_sidecar(path)
-        if sidecar is not None and path == sidecar_path(folder, sidecar.shard) and is_whole(folder, sidecar):
+        if sidecar is not None and path == sidecar_path(folder, sidecar.shard):
             yield sidecar
 
 

@@ -44,13 +44,13 @@ class SpallSettings(Table):
     separation_deg: Annotated[Distribution, Between(-360.0, 360.0)] | None = None
     """From the centre of each spall to that of the next, degrees; anywhere if not given."""
     extent_deg: Arc | None = None
-    """Arc covered by the spall, degrees."""
+    """Arc covered by the spall, degrees. Every spall but a measured table needs this or one of the next two."""
     extent_mm: Annotated[Distribution, EXTENTS_MM] | None = None
     """Length of the spall along its raceway, mm."""
     extent_spacing: Annotated[Distribution, Between(0.0, 100.0, above=True)] | None = None
     """Arc covered by the spall, in ball spacings."""
     depth_um: Annotated[Distribution, DEPTHS_UM] | None = None
-    """Depth of the floor, µm."""
+    """Depth of the floor, µm. Every spall but a measured table needs one."""
     entry_taper_deg: TaperArc | None = None
     """Arc of the taper that a ball meets first, degrees. At 0 the film does not feel the edge of profile tukey; short
     tapers have the limit of 0.001."""

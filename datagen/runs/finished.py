@@ -7,16 +7,21 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from datagen.corpus_files.format import Identity
-from datagen.corpus_files.shard import Sidecar, finished_shards, read_sidecar, sidecar_path
+from datagen.corpus_files.shard import Sidecar, is_whole, read_sidecar, sidecar_path, sidecars
 from datagen.runs.plan import PlannedShard
 
 
 @dataclass(frozen=True)
 class Finished:
-    """The finished shards of a `folder`: their sidecars by number, without labels, which would fill the memory."""
+    """The finished shards of a `folder`: their sidecars by number, without labels, which would fill the memory.
+
+    `torn` has those of shards whose file is another one: a run that was to replace it was killed before it had written
+    the sidecar too, or something outside has damaged it.
+    """
 
     folder: Path
     shards: Mapping[int, Sidecar] = field(default_factory=dict)
+    torn: Mapping[int, Sidecar] = field(default_factory=dict)
 
     def made_of(self, wanted: frozenset[int]) -> int:
         """How many of the `wanted` records they hold."""
@@ -27,12 +32,14 @@ class Finished:
         return self.shards[shard.number].settled if shard.number in self.shards else frozenset()
 
     def lacking(self, planned: Sequence[PlannedShard], wanted: Collection[int]) -> list[PlannedShard]:
-        """Planned shards that lack a wanted record, each with all the records that it must then hold."""
+        """Planned shards that lack a wanted record, each with all the records that it must then hold: these, and what
+        it held before."""
         todo = []
         for shard in planned:
             there = self.settled_of(shard)
-            records = tuple(record for record in shard.records if record in wanted or record in there)
-            if not there.issuperset(records):
+            if any(record in wanted and record not in there for record in shard.records):
+                held = there | (self.torn[shard.number].settled if shard.number in self.torn else frozenset())
+                records = tuple(record for record in shard.records if record in wanted or record in held)
                 todo.append(replace(shard, records=records))
         return todo
 
@@ -47,5 +54,6 @@ class Finished:
 
 def find_finished(folder: Path, identity: Identity) -> Finished:
     """The shards of that `identity` that are finished in `folder`, found from the disk alone."""
-    own = (sidecar for sidecar in finished_shards(folder) if sidecar.identity == identity)
-    return Finished(folder, {sidecar.shard: replace(sidecar, labels={}) for sidecar in own})
+    own = [replace(sidecar, labels={}) for sidecar in sidecars(folder) if sidecar.identity == identity]
+    whole = {sidecar.shard: sidecar for sidecar in own if is_whole(folder, sidecar)}
+    return Finished(folder, whole, {sidecar.shard: sidecar for sidecar in own if sidecar.shard not in whole})

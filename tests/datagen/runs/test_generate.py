@@ -153,6 +153,17 @@ def test_a_record_of_a_shard_stays_when_another_of_the_same_shard_is_added(tiny:
     assert list(read_index(tmp_path / "some")["record"]) == [first, second]
 
 
+def test_records_of_a_shard_stay_where_a_run_was_killed_between_its_file_and_its_sidecar(
+    tiny: Recipe, tmp_path: Path
+) -> None:
+    first, second = next(shard.records for shard in plan_shards(tiny, 14) if len(shard.records) == 2)
+    generate(tiny, tmp_path / "some", records=[first], engine=ALONE)
+    (file,) = (tmp_path / "some").glob("shards/*.nc")
+    file.write_bytes(file.read_bytes() + b"of another file")
+    generate(tiny, tmp_path / "some", records=[second], engine=ALONE)
+    assert list(read_index(tmp_path / "some")["record"]) == [first, second]
+
+
 def test_records_picked_out_of_shards_that_interleave_are_listed_in_their_order(tiny: Recipe, tmp_path: Path) -> None:
     recipe = Recipe.model_validate(tiny.model_dump(mode="json") | {"order": "interleaved"})
     shards = [shard.records for shard in plan_shards(recipe, 14)]

@@ -78,7 +78,7 @@ def refine_speed(
     slip comes to the strongest outer or inner family. Harmonics on which lines of a race may lie say nothing: a spall
     at BPFO = 3.05 would pass for a third harmonic at a speed 1.8 % higher. Nor does one line alone: it may be of
     another machine. Hum leads nowhere: two of its lines stand at the synchronous speed, near which motors turn, so that
-    only near the speed given may lines of the mains be the shaft's. Without evidence the speed given is kept.
+    only near a measured speed may lines of the mains be the shaft's. Without evidence the speed given is kept.
     Where the shaft shows, all its harmonics in the spectra then refine it, to one component at the highest of them: of
     a shaft that knocks, harmonics 40 to 50 lie where those of the races are looked for.
     """
@@ -93,7 +93,8 @@ def refine_speed(
         unambiguous * tempered(harmonic_evidence(lines, speeds, known.shaft_hz, 0.0, SHAFT_HARMONICS)[:, 0])
         for lines in (spectrum, without_mains)
     )
-    shaft = np.where(np.abs(factors - 1.0) < AS_STATED, shaft, elsewhere)
+    measured = known.speed_within <= MEASURED_WITHIN
+    shaft = np.where(measured & (np.abs(factors - 1.0) < AS_STATED), shaft, elsewhere)
     modulation = unambiguous[:4] * tempered(harmonic_evidence(turning, speeds, known.shaft_hz, 0.0, 4)[:, 0])
     harmonics = np.concatenate([shaft, modulation])
     comb = harmonics.sum(axis=0)

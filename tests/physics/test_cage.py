@@ -212,7 +212,7 @@ def test_the_knot_scale_makes_up_for_the_spline(correlation):
     [
         ({"nominal_speed": 0.0}, "nominal_speed", "nominal_speed = 0.0 rad/s; it must be above 0"),
         ({"duration": -1.0}, "duration", "duration = -1.0 s; it must be above 0"),
-        ({"start_angle": math.nan}, "start_angle", "start_angle = nan rad; it must be finite"),
+        ({"start_angle": math.nan}, "start_angle", "start_angle = nan rad; allowed: -1e.06 to 1e.06 rad"),
         ({"mean_slip": 0.3}, "mean_slip", "mean_slip = 0.3; allowed: -0.2 to 0.2"),
         ({"knot_step": 0.0}, "knot_step", "knot_step = 0.0 s; it must be above 0"),
         ({"knot_start": 0.01}, "knot_values", "slip knots cover 0.01 to"),

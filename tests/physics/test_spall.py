@@ -54,7 +54,7 @@ def test_a_spacing_stated_in_degrees_of_nine_digits_is_a_whole_one(fan):
         ({"row": 1.0}, "row", "row = 1.0; allowed: whole numbers 1 to 2"),
         ({"row": True}, "row", "row = True; allowed: whole numbers 1 to 2"),
         ({"profile": "box"}, "profile", 'profile = "box"; allowed: tukey, ball_path, table'),
-        ({"angle": math.nan}, "angle", "angle = nan rad; it must be finite"),
+        ({"angle": math.nan}, "angle", "angle = nan rad; allowed: -1e.06 to 1e.06 rad"),
         ({"extent": 0.0}, "extent", "extent = 0.0 rad; allowed: above 0, up to 3.14159 rad"),
         ({"extent": 4.0}, "extent", "extent = 4.0 rad; allowed: above 0, up to 3.14159 rad"),
         ({"depth": -1e-6}, "depth", "depth = -1e-06 m; allowed: 0 to 0.01 m"),

@@ -17,7 +17,7 @@ from labels.features.kinematics import SLIP_PRIOR, SLIP_TOLERANCE, Kinematics
 from labels.features.known_lines import mains_components, shaft_components, without_shaft
 from labels.features.lines import Lines, lines_in
 from labels.features.race_combs import race_combs
-from labels.features.speed import AS_STATED, Speed, refine_speed, vibration_lines
+from labels.features.speed import Speed, refine_speed, vibration_lines
 from labels.features.turning import Turning
 from physics.arrays import Array
 
@@ -29,6 +29,8 @@ OUTER_WINDOW = (-0.027, 0.013)
 INNER_WINDOW = (-0.012, 0.020)
 # The same where no harmonics of the shaft show its speed.
 UNCERTAIN_WINDOW = (-0.025, 0.025)
+# A refined speed within this share of the one stated is the stated one.
+AS_STATED = 0.003
 # Nats of shaft harmonics above which the speed is taken as known; noise alone has 8 at most, in 120 records.
 CERTAIN_SPEED = 15.0
 VIBRATION_ORDERS = 12.0
@@ -88,9 +90,9 @@ class Analysis:
         """
         spectrum, power = self.vibration_with_shaft
         if self.record.turning is not None:
-            return refine_speed(spectrum, spectrum, self.envelopes, self.given, exact=True), []
+            return refine_speed(spectrum, self.envelopes, self.given, exact=True), []
         stated, step, envelopes = self.given.shaft_hz, self.envelopes.step, self.envelopes
-        speed, found = refine_speed(spectrum, self._without_mains(power), envelopes, self.given), list[float]()
+        speed, found = refine_speed(spectrum, envelopes, self.given), list[float]()
         mains = mains_components(envelopes.excess.shape[-1], step)
         while abs(speed.shaft_hz / stated - 1.0) >= AS_STATED and len(found) < MOST_COMBS:
             excess = np.where(mains, 1.0, envelopes.excess)
@@ -102,13 +104,8 @@ class Analysis:
             found += combs
             power = without_combs(power, self.record.step, combs, stated)
             envelopes = replace(envelopes, excess=without_combs(envelopes.excess, step, combs, stated))
-            speed = refine_speed(lines_in(power, self.record.step), self._without_mains(power), envelopes, self.given)
+            speed = refine_speed(lines_in(power, self.record.step), envelopes, self.given)
         return speed, found
-
-    def _without_mains(self, power: Array) -> Lines:
-        """Lines of the vibration of this `power` over its floor (1, F), without those of the mains."""
-        hum = mains_components(power.shape[-1], self.record.step)
-        return lines_in(np.where(hum, 1.0, power), self.record.step)
 
     @cached_property
     def kinematics(self) -> Kinematics:

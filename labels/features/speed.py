@@ -35,8 +35,6 @@ FAMILY_PRIOR = 0.015
 DECISIVE = 12.0
 # A speed is preferred to another only if this many more lines stand out at it.
 MORE_LINES = 4
-# A refined speed within this share of the one stated is the stated one.
-AS_STATED = 0.003
 # Another speed than the one stated has to be better by so many nats, over the most that it may be off: chance finds
 # more where more speeds are tried. These are 3 nats for a measured speed.
 WORTH_LEAVING = 3.0 / MEASURED_WITHIN
@@ -69,16 +67,12 @@ def vibration_lines(record: Conditioned, shaft_hz: float, top_hz: float) -> tupl
     return lines_in(excess, record.step), excess
 
 
-def refine_speed(
-    spectrum: Lines, without_mains: Lines, envelopes: EnvelopeSpectra, known: Kinematics, *, exact: bool = False
-) -> Speed:
+def refine_speed(spectrum: Lines, envelopes: EnvelopeSpectra, known: Kinematics, *, exact: bool = False) -> Speed:
     """The most likely shaft speed within what the one given may be off, or that one if it is `exact`.
 
     Counts shaft harmonics 1 to 8 of the vibration, 1 to 4 of the widest band's envelope, and how near a cage without
     slip comes to the strongest outer or inner family. Harmonics on which lines of a race may lie say nothing: a spall
-    at BPFO = 3.05 would pass for a third harmonic at a speed 1.8 % higher. Nor does one line alone: it may be of
-    another machine. Hum leads nowhere: two of its lines stand at the synchronous speed, near which motors turn, so that
-    only near a measured speed may lines of the mains be the shaft's. Without evidence the speed given is kept.
+    at BPFO = 3.05 would pass for a third harmonic at a speed 1.8 % higher. Without evidence the speed given is kept.
     Where the shaft shows, all its harmonics in the spectra then refine it, to one component at the highest of them: of
     a shaft that knocks, harmonics 40 to 50 lie where those of the races are looked for.
     """
@@ -89,18 +83,11 @@ def refine_speed(
     factors = np.linspace(1.0 - tolerance, 1.0 + tolerance, places)
     speeds = known.shaft_hz * factors
     unambiguous = unambiguous_harmonics(known)[:, None]
-    shaft, elsewhere = (
-        unambiguous * tempered(harmonic_evidence(lines, speeds, known.shaft_hz, 0.0, SHAFT_HARMONICS)[:, 0])
-        for lines in (spectrum, without_mains)
-    )
-    measured = known.speed_within <= MEASURED_WITHIN
-    shaft = np.where(measured & (np.abs(factors - 1.0) < AS_STATED), shaft, elsewhere)
+    shaft = unambiguous * tempered(harmonic_evidence(spectrum, speeds, known.shaft_hz, 0.0, SHAFT_HARMONICS)[:, 0])
     modulation = unambiguous[:4] * tempered(harmonic_evidence(turning, speeds, known.shaft_hz, 0.0, 4)[:, 0])
-    harmonics = np.concatenate([shaft, modulation])
-    comb = harmonics.sum(axis=0)
+    comb = shaft.sum(axis=0) + modulation.sum(axis=0)
     joint = (
         comb
-        - harmonics.max(axis=0)
         + families_term(envelopes, known, factors)
         - 0.5 * ((factors - 1.0) / (PRIOR_SPREAD * known.speed_within)) ** 2
     )

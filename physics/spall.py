@@ -52,8 +52,8 @@ class Spall:
     `roughness_values` to 1e-10 m, unless they jump by many times what drawn ones do from step to step.
 
     InvalidParameter unless `race`, `row` and `profile` are as above, the extent is above 0 and π at most, depths are
-    within 10 mm and the tapers fit into the extent. Roughness values (4 or more, 0 at both ends) or table (2 points or
-    more, within the extent) have to be finite and in order.
+    within 10 mm and the tapers fit into the extent. Roughness values (4 or more, 0 at both ends) have to be within
+    10 mm too; a table (2 points or more, within the extent) has to be finite and in order.
     """
 
     race: str
@@ -107,7 +107,7 @@ class Spall:
             "roughness_values",
         )
         for place, value in enumerate(values, start=1):
-            if not math.isfinite(value):
+            if not -DEEPEST <= value <= DEEPEST:  # there may be thousands of them: words are made for a wrong one alone
                 what = f"number {place} of {len(values)} roughness_values"
                 require_between("roughness_values", value, -DEEPEST, DEEPEST, "m", what)
         require(

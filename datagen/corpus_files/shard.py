@@ -70,7 +70,7 @@ def shard_path(folder: Path, shard: int) -> Path:
 
 def shard_name(shard: int) -> str:
     """What the file of a shard is called in index and manifest: its path in the corpus."""
-    return f"{SHARDS}/{shard_path(Path(), shard).name}"
+    return shard_path(Path(), shard).as_posix()
 
 
 def sidecar_path(folder: Path, shard: int) -> Path:

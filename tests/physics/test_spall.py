@@ -65,6 +65,11 @@ def test_a_spacing_stated_in_degrees_of_nine_digits_is_a_whole_one(fan):
         ({"exit_taper": 0.09}, "entry_taper", "entry_taper \\+ exit_taper = 0.11 rad is longer than the spall"),
         ({"roughness_values": (0.0, 1e-6, 0.0)}, "roughness_values", "at least 4 numbers \\(m\\); there are 3"),
         ({"roughness_values": (0.0, 1e-6, math.nan, 0.0)}, "roughness_values", "number 3 of 4 .* = nan m"),
+        (
+            {"roughness_values": (0.0, -1.1e-2, 0.0, 0.0)},
+            "roughness_values",
+            "number 2 of 4 .* = -0.011 m; allowed: -0.01",
+        ),
         ({"roughness_values": (0.0, 1e-6, 0.0, 1e-6)}, "roughness_values", "must begin and end with 0"),
         ({"table_angle": (0.0, 0.1)}, "table_depth", "table_angle has 2 values and table_depth 0"),
         ({"profile": "table"}, "table_angle", 'profile = "table" needs at least 2 table points; there are 0'),

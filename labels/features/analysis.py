@@ -13,7 +13,7 @@ from labels.features.conditioning import Conditioned, condition
 from labels.features.envelopes import ENVELOPE_HARMONICS, HIGHEST_SHARE, EnvelopeSpectra, envelope_spectra
 from labels.features.families import HARMONICS, Family, find_family
 from labels.features.foreign_combs import MOST_COMBS, foreign_combs
-from labels.features.kinematics import SLIP_PRIOR, SLIP_TOLERANCE, Kinematics
+from labels.features.kinematics import MEASURED_WITHIN, SLIP_PRIOR, SLIP_TOLERANCE, Kinematics
 from labels.features.known_lines import mains_components, shaft_components, without_shaft
 from labels.features.lines import Lines, lines_in
 from labels.features.race_combs import race_combs
@@ -29,8 +29,11 @@ OUTER_WINDOW = (-0.027, 0.013)
 INNER_WINDOW = (-0.012, 0.020)
 # The same where no harmonics of the shaft show its speed.
 UNCERTAIN_WINDOW = (-0.025, 0.025)
-# A refined speed within this share of the one stated is the stated one.
-AS_STATED = 0.003
+# Refined speeds within this share of each other, or of the one stated, are the same.
+SAME_SPEED = 0.003
+# Another speed found without the mains is taken if it has this share of the evidence of the one found with them, both
+# without the strongest harmonic. Of shafts near the synchronous speed it had a seventh, of hum 0.99 and more.
+WITHOUT_MAINS = 0.75
 # Nats of shaft harmonics above which the speed is taken as known; noise alone has 8 at most, in 120 records.
 CERTAIN_SPEED = 15.0
 VIBRATION_ORDERS = 12.0
@@ -94,7 +97,7 @@ class Analysis:
         stated, step, envelopes = self.given.shaft_hz, self.envelopes.step, self.envelopes
         speed, found = refine_speed(spectrum, envelopes, self.given), list[float]()
         mains = mains_components(envelopes.excess.shape[-1], step)
-        while abs(speed.shaft_hz / stated - 1.0) >= AS_STATED and len(found) < MOST_COMBS:
+        while _differ(speed.shaft_hz, stated) and len(found) < MOST_COMBS:
             excess = np.where(mains, 1.0, envelopes.excess)
             combs = race_combs(excess, step, self.given.at(speed.shaft_hz), ~mains)
             if not found:
@@ -105,7 +108,25 @@ class Analysis:
             power = without_combs(power, self.record.step, combs, stated)
             envelopes = replace(envelopes, excess=without_combs(envelopes.excess, step, combs, stated))
             speed = refine_speed(lines_in(power, self.record.step), envelopes, self.given)
-        return speed, found
+        return self._not_drawn_by_mains(speed, power, envelopes), found
+
+    def _not_drawn_by_mains(self, speed: Speed, power: Array, envelopes: EnvelopeSpectra) -> Speed:
+        """`speed`, or the one that the lines apart from those of the mains show, if hum may have drawn it from there.
+
+        `power` (1, F) is that of the vibration's spectrum over its floor, with the `envelopes` beside it.
+        Hum stands at multiples of the synchronous speed, near which motors turn.
+        """
+        is_measured = self.given.speed_within <= MEASURED_WITHIN
+        if is_measured and not _differ(speed.shaft_hz, self.given.shaft_hz):
+            return speed
+        mains = mains_components(power.shape[-1], self.record.step)
+        spectrum = lines_in(np.where(mains, 1.0, power), self.record.step)
+        mains = mains_components(envelopes.excess.shape[-1], envelopes.step)
+        other = refine_speed(spectrum, replace(envelopes, excess=np.where(mains, 1.0, envelopes.excess)), self.given)
+        if not _differ(other.shaft_hz, speed.shaft_hz):
+            return speed
+        only_hum = is_measured and other.evidence < CERTAIN_SPEED
+        return other if only_hum or other.of_others >= WITHOUT_MAINS * speed.of_others else speed
 
     @cached_property
     def kinematics(self) -> Kinematics:
@@ -191,3 +212,8 @@ def analyse(
     if record.turning is not None:
         kinematics = kinematics.at(record.turning.revolutions * record.step)
     return Analysis(record, kinematics)
+
+
+def _differ(one_hz: float, another_hz: float) -> bool:
+    """Whether these are two speeds of a shaft."""
+    return abs(one_hz / another_hz - 1.0) >= SAME_SPEED

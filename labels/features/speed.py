@@ -45,10 +45,11 @@ MOVED_BY_SLIP = 0.027
 
 @dataclass(frozen=True)
 class Speed:
-    """Refined shaft speed in Hz and the evidence (nats) of shaft harmonics there."""
+    """Refined shaft speed in Hz and the evidence (nats) of shaft harmonics there, and of all but the strongest."""
 
     shaft_hz: float
     evidence: float
+    of_others: float
 
 
 def vibration_excess(power: Array, step: float, shaft_hz: float) -> Array:
@@ -72,7 +73,8 @@ def refine_speed(spectrum: Lines, envelopes: EnvelopeSpectra, known: Kinematics,
 
     Counts shaft harmonics 1 to 8 of the vibration, 1 to 4 of the widest band's envelope, and how near a cage without
     slip comes to the strongest outer or inner family. Harmonics on which lines of a race may lie say nothing: a spall
-    at BPFO = 3.05 would pass for a third harmonic at a speed 1.8 % higher. Without evidence the speed given is kept.
+    at BPFO = 3.05 would pass for a third harmonic at a speed 1.8 % higher. Without evidence the speed given is kept,
+    and so is a measured one from which one line alone would lead away: it may be of another bearing or machine.
     Where the shaft shows, all its harmonics in the spectra then refine it, to one component at the highest of them: of
     a shaft that knocks, harmonics 40 to 50 lie where those of the races are looked for.
     """
@@ -85,19 +87,23 @@ def refine_speed(spectrum: Lines, envelopes: EnvelopeSpectra, known: Kinematics,
     unambiguous = unambiguous_harmonics(known)[:, None]
     shaft = unambiguous * tempered(harmonic_evidence(spectrum, speeds, known.shaft_hz, 0.0, SHAFT_HARMONICS)[:, 0])
     modulation = unambiguous[:4] * tempered(harmonic_evidence(turning, speeds, known.shaft_hz, 0.0, 4)[:, 0])
-    comb = shaft.sum(axis=0) + modulation.sum(axis=0)
+    harmonics = np.concatenate([shaft, modulation])
+    comb = harmonics.sum(axis=0)
     joint = (
         comb
         + families_term(envelopes, known, factors)
         - 0.5 * ((factors - 1.0) / (PRIOR_SPREAD * known.speed_within)) ** 2
     )
     stated, place = places // 2, int(joint.argmax())
-    if joint[place] < joint[stated] + WORTH_LEAVING * known.speed_within:
+    gain = joint[place] - joint[stated]
+    if known.speed_within <= MEASURED_WITHIN:
+        gain -= (harmonics[:, place] - harmonics[:, stated]).max()
+    if gain < WORTH_LEAVING * known.speed_within:
         place = stated
     factor, nats = float(factors[place]), float(comb[place])
     if places > 1 and nats > 0.0:
         factor = sharpened(spectrum, turning, known, factor, float(factors[1] - factors[0]))
-    return Speed(known.shaft_hz * factor, nats)
+    return Speed(known.shaft_hz * factor, nats, nats - float(harmonics[:, place].max()))
 
 
 def unambiguous_harmonics(known: Kinematics) -> Flags:

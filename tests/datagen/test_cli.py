@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from command_line import run
 
+from datagen.commands.tables import catalog_tables
 from datagen.corpus_files.index import read_index
 from datagen.files.plain import plain_json
 from datagen.versions import program_versions
@@ -114,6 +115,9 @@ def test_the_catalogue_gives_every_number_with_its_source(tmp_path: Path) -> Non
     rows = json.loads((tmp_path / "c.json").read_text())
     assert all(row["source"] for row in rows)
     assert any(row["quantity"] == "resonator_mass" and row["value"] == 0.5 for row in rows)
+    sources = [str(cell) for table in catalog_tables() for cell in table.columns[3].cells]
+    guessed = [row["assumed"] and row["source"] != "assumed" for row in rows]
+    assert [source.endswith(" (assumed)") for source in sources] == guessed
 
 
 @pytest.mark.parametrize(

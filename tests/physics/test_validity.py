@@ -294,6 +294,25 @@ def test_a_bearing_turned_faster_than_grease_allows_is_noted(gearbox):
     assert note.startswith("shaft speed times pitch diameter is 7.75e+05 rpm mm, above the 5e+05 rpm mm usual")
 
 
+@pytest.mark.parametrize("share", [0.999, 1.001])
+def test_the_note_on_grease_appears_where_speed_times_pitch_diameter_passes_half_a_million(gearbox, share):
+    scene = scene_of(gearbox, speed=share * 5e5 / 38.75 * RPM)  # of a pitch diameter of 38.75 mm
+    assert any("pitch diameter" in note for note in assess(scene)) == (share > 1.0)
+
+
+def test_without_load_a_force_is_told_beside_none(gearbox):
+    [note] = [note for note in assess(scene_of(gearbox, load=0.0)) if note.startswith("the centrifugal force")]
+    assert note.endswith("is left out but is not small beside the peak ball load (0 N)")
+
+
+@pytest.mark.parametrize("share", [0.99, 1.01])
+def test_the_note_on_dents_appears_where_a_preload_passes_the_peak_at_the_static_rating(gearbox, share):
+    # The most loaded of Z balls carries 4.37/Z of the rating, which is 14.7 N/mm² · Z · (7.12 mm)².
+    preload = share * 4.37 * 14.7 * 7.12**2
+    tight = with_clearance(gearbox, -((preload / gearbox.bearing.load_deflection) ** (2.0 / 3.0)))
+    assert any("dented" in note for note in assess(scene_of(tight, load=0.0))) == (share > 1.0)
+
+
 def test_no_load_and_reversed_load_are_noted_with_their_numbers(gearbox):
     none = assess(scene_of(gearbox, load=0.0))
     assert any(note.startswith("there is no load (0 N)") for note in none)

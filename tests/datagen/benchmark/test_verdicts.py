@@ -445,6 +445,17 @@ def test_scores_in_added_noise_are_told_with_its_level_where_there_are_any(capsy
         assert ("  said       -12.5 dB: faults 1.000" in capsys.readouterr().out) == scored
 
 
+def test_scores_in_added_noise_are_those_with_the_noise(capsys):
+    healthy, outer = [0.9, 0.1, 0.0, 0.0, 0.0], [0.05, 0.95, 0.0, 0.0, 0.0]
+    tested, deaf = (judged(["none", "outer"], [healthy, second]) for second in (outer, healthy))
+    print_results(
+        [CorpusResults(summarise(tested), record_predictions(tested), [NoisyScores(0.0, 1, summarise(deaf))])]
+    )
+    shown = capsys.readouterr().out
+    assert "  said       faults 1.000" in shown
+    assert "  said       0 dB: faults 0.000" in shown
+
+
 def test_false_alarms_are_told_of_the_healthy_records_and_rejections_of_all():
     """Two of five healthy records are called faulty, one is rejected as in doubt, and so is one of two faults."""
     healthy, outer, doubt = [0.9, 0.1, 0.0, 0.0, 0.0], [0.05, 0.95, 0.0, 0.0, 0.0], [0.02, 0.49, 0.49, 0.0, 0.0]

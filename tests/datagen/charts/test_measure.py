@@ -1,6 +1,7 @@
 """What is measured for a chart, and what is stored of it."""
 
 import csv
+import dataclasses
 import json
 import math
 
@@ -10,6 +11,7 @@ from datagen.charts import contestants as entrants
 from datagen.charts import measure as measuring
 from datagen.charts.measure import Run, at_error
 from datagen.charts.response_errors import ResponseErrors
+from datagen.charts.scenes import find_subject
 from datagen.charts.table import COLUMNS, chart_table
 from datagen.drawing.work_precision import (
     work_precision_png,
@@ -94,6 +96,27 @@ def test_the_table_has_a_row_for_every_run(small_chart):
     assert tuple(rows[0]) == COLUMNS
     assert len(rows) == 1 + len(small_chart.runs)
     assert all(len(row) == len(COLUMNS) for row in rows)
+
+
+def test_every_number_of_a_run_stands_in_its_own_column(small_chart):
+    scored = ResponseErrors(1e-3, 0.2, 3.0, 4.0, 5.0, 6, 7e-3)
+    run = Run("method", "m", "2 steps a sample", 0.5, 0.25, 2.0, scored, "")
+    names, row = csv.reader(chart_table(dataclasses.replace(small_chart, runs=(run,))).splitlines())
+    assert dict(zip(names, row, strict=True)) == {
+        "group": "method", "name": "m", "setting": "2 steps a sample", "duration_s": "0.5", "seconds": "0.25",
+        "times_real_time": "2", "acceleration_error": "0.001", "envelope_error_db": "0.2", "release_error_us": "3",
+        "regain_error_us": "4", "worst_event_error_us": "5", "events_missed": "6", "stiffness_error": "0.007",
+        "failure": "",
+    }  # fmt: skip
+
+
+def test_a_slow_solver_is_timed_on_the_first_part_and_over_that_alone(monkeypatch):
+    subject = find_subject("F1")
+    slow = dataclasses.replace(entrants.contestants(subject.scene, quick=True)[0], part=True)
+    monkeypatch.setattr(measuring, "contestants", lambda scene, quick: [slow])
+    (run,) = measuring.measure(subject, quick=True, rounds=1, step=lambda what: None).runs
+    assert run.duration == pytest.approx(0.15)  # 0.05 s are scored, which hold three passes
+    assert run.real_time == pytest.approx(run.duration / run.seconds, rel=1e-12)
 
 
 def test_an_edge_is_the_speed_at_the_longest_stable_step_however_fine_the_run_it_is_told_from():

@@ -1,5 +1,7 @@
 """Which scene a chart is of."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 
@@ -57,3 +59,10 @@ def test_a_record_of_a_recipe_can_be_charted(tiny_recipe):
     subject = find_subject("datasets/quickstart", 3)
     assert subject.name == "quickstart_3"
     assert subject.scene.duration <= 0.5
+
+
+def test_the_first_part_of_a_scene_ends_for_both_cages():
+    subject = find_subject("G1")
+    scene = dataclasses.replace(subject.scene, second_cage=subject.scene.cage)
+    part = dataclasses.replace(subject, scene=scene).lasting(0.2)
+    assert (part.cage.duration, part.second_cage.duration) == (0.2, 0.2)

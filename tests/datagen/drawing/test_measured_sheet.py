@@ -7,6 +7,8 @@ from typing import Any
 import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.collections import QuadMesh
+from matplotlib.patches import Rectangle
 from matplotlib.text import Text
 
 from datagen.drawing.measured_portrait import MeasuredPortrait
@@ -203,6 +205,13 @@ def test_the_close_up_and_its_spectrogram_are_in_milliseconds() -> None:
     best = int(np.argmax(np.abs(np.asarray(line.get_ydata()))))
     assert np.asarray(line.get_xdata())[best] == pytest.approx(700.1, abs=0.1)  # a quarter of a turn of 2500 Hz behind
     assert close_up.get_xlabel() == "time (ms)"
+    mesh = next(axes for axes in figure.axes if axes.get_title(loc="left").startswith("Spectrogram")).collections[0]
+    assert isinstance(mesh, QuadMesh)
+    loudest = int(np.argmax(np.asarray(mesh.get_array()).max(axis=0)))
+    assert mesh.get_coordinates()[0, loudest, 0] == pytest.approx(701.0, abs=8.0)  # half a window
+    mark = figure.axes[0].patches[0]
+    assert isinstance(mark, Rectangle)
+    assert (mark.get_x(), mark.get_x() + mark.get_width()) == pytest.approx(made.window)  # of the whole record, in s
 
 
 def test_lines_of_balls_and_cages_are_their_own() -> None:

@@ -136,3 +136,8 @@ def test_depths_are_told_in_micrometres(count: int) -> None:
     if count == 2:
         assert words(axes) == ["1", "12"]
     assert sum(bar.get_height() for bar in bars(axes, BLUE)) == 12.0
+
+
+def test_sizes_that_all_spalls_share_are_no_distribution_beside_the_zeros_of_healthy_records() -> None:
+    labels = table(depth=[0.0, 12e-6] * 6, extent_mm=[0.0, 1.5] * 6, speed_rpm=[100.0, 200.0] * 6)
+    assert [axes.get_title(loc="left") for axes in drawn(labels).axes] == ["Kinds", "Speed"]

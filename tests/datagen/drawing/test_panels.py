@@ -7,11 +7,18 @@ import numpy as np
 import pytest
 from matplotlib.colors import to_rgba
 
-from datagen.drawing.frequency_panels import draw_spectrum
+from datagen.drawing.frequency_panels import draw_envelope_spectrum, draw_spectrum
 from datagen.drawing.path_panels import draw_ball_load, draw_path, load_over_spall
 from datagen.drawing.sheet import draw_sheet
 from datagen.drawing.style import BLUE, GREEN, GREY, ORANGE, PALE, VERMILLION, house_style, with_panels
-from datagen.drawing.time_panels import draw_close_up, draw_passes, draw_spectrogram, draw_stiffness, draw_trace
+from datagen.drawing.time_panels import (
+    draw_close_up,
+    draw_part,
+    draw_passes,
+    draw_spectrogram,
+    draw_stiffness,
+    draw_trace,
+)
 
 MS = 1e3
 
@@ -77,6 +84,15 @@ def test_the_stiffness_along_the_load_is_on_the_left_and_that_across_it_on_the_r
     assert (left.lines[0].get_ydata()[0], right.lines[0].get_ydata()[0]) == pytest.approx((2.0, 1.0))
 
 
+def test_the_stiffness_is_that_of_the_instants_of_the_close_up(portrait):
+    drawn = portrait("line, outer")
+    rising = 1e6 * drawn.stiffness_time * np.ones((3, 1))  # as many MN/m as seconds
+    for axes in panel_of(draw_stiffness, replace(drawn, stiffness=rising)).figure.axes:
+        (line,) = axes.lines
+        assert MS * line.get_ydata() == pytest.approx(line.get_xdata(), rel=1e-9)
+        assert line.get_xdata()[[0, -1]] == pytest.approx(MS * np.array(drawn.window))
+
+
 @pytest.fixture
 def tones(portrait):
     """A portrait whose clean y axis holds 3 kHz and, ten times weaker, 6 kHz; its x axis holds 1 kHz."""
@@ -96,6 +112,28 @@ def test_the_spectrogram_is_that_of_the_y_axis_and_a_tenth_of_an_amplitude_is_tw
     assert near[1.0] < -50.0  # beside the line of 3 kHz
 
 
+def test_the_spectrogram_is_over_the_milliseconds_of_the_close_up(tones):
+    start, stop = tones.window
+    burst = np.exp(-(((tones.time - 0.5 * (start + stop)) / 1e-3) ** 2))[:, None]
+    mesh = panel_of(draw_spectrogram, replace(tones, clean=tones.clean * burst)).collections[0]
+    place = np.argmax(np.asarray(mesh.get_array()).max(axis=0))
+    edges = mesh.get_coordinates()[0, :, 0]
+    assert edges[place] - 1.0 < MS * 0.5 * (start + stop) < edges[place + 1] + 1.0
+
+
+def test_the_modes_are_marked_in_kilohertz_with_their_numbers(portrait):
+    axes = panel_of(draw_spectrogram, portrait("healthy"))
+    assert [line.get_ydata()[0] for line in axes.lines] == pytest.approx([0.1993, 2.2493, 10.548], rel=3e-4)
+    assert [text.get_text() for text in axes.texts] == ["0.20", "2.25", "10.55"]
+
+
+def test_the_close_up_is_marked_in_the_whole_record(portrait):
+    drawn = portrait("line, outer")
+    for draw in (draw_trace, lambda axes, of: draw_part(axes, of, of.acceleration, BLUE, "part")):
+        (mark,) = panel_of(draw, drawn).patches
+        assert (mark.get_x(), mark.get_x() + mark.get_width()) == pytest.approx(drawn.window)
+
+
 def test_a_tone_stands_at_its_frequency_and_amplitude_and_the_band_at_its_edges(tones):
     with house_style():
         _, axes = with_panels(figsize=(6.0, 3.0))
@@ -105,6 +143,17 @@ def test_a_tone_stands_at_its_frequency_and_amplitude_and_the_band_at_its_edges(
     assert (line.get_xdata()[best], line.get_ydata()[best]) == pytest.approx((3.0, 2.0), rel=1e-6)  # on a bin
     assert (band.get_x(), band.get_x() + band.get_width()) == pytest.approx((5.0, 7.0))
     assert axes.get_xlim() == (0.0, 16.384)  # half of the rate of 32 768 Hz
+    assert axes.texts[0].get_text() == "envelope band\n5.00 to 7.00 kHz"
+
+
+def test_flanks_of_the_defect_s_lines_are_not_marked_as_sidebands(portrait):
+    drawn = portrait("line, outer")
+    samples = 4 * round(drawn.rate)
+    burst = np.exp(-(((np.arange(samples) / drawn.rate - 2.0) / 1e-3) ** 2))  # whose square has a spectrum that falls
+    long = replace(drawn, acceleration=np.zeros((samples, 2)), envelope=burst)
+    lines = lines_by_name(panel_of(draw_envelope_spectrum, long))
+    assert any(name.startswith("BPFO 34.28 Hz") for name in lines)
+    assert not any(name.startswith(("±", "shaft")) for name in lines)
 
 
 def test_the_spectrum_of_a_sheet_and_that_of_its_background_are_of_the_y_axis(tones):
@@ -136,9 +185,24 @@ def test_the_path_is_as_deep_as_the_spall_in_micrometres_between_its_edges(portr
     assert path.get_ydata()[middle] == pytest.approx(12.0, rel=1e-3)
     edges = sorted(line.get_xdata()[0] for line in axes.lines if len(line.get_xdata()) == 2)
     assert edges == pytest.approx([-1.0, 1.0])  # half of 2 degrees to each side
+    names = {text.get_text().strip(): text.xy[0] for text in axes.texts}
+    assert names == pytest.approx({"entry": -1.0, "exit": 1.0})
     outside = np.abs(path.get_xdata()) > 1.001
     assert outside.any()
     assert not path.get_ydata()[outside].any()
+
+
+def test_the_title_of_the_path_tells_its_length_and_how_deep_the_ball_drops(portrait):
+    drawn = portrait("line, outer")
+    spall, ball, race = drawn.scene.spalls[0], 3.56, 0.5 * (38.75 + 7.12)  # radii, mm
+    gap = replace(spall, entry_taper=0.0, exit_taper=0.0, depth=3e-4, profile="ball_path")
+    half = math.radians(1.0) * race
+    hanging = 1e3 * half**2 / 2.0 * (1.0 / ball - 1.0 / race)  # µm, on both edges
+    for one, drop, end in ((spall, 12.0, " µm"), (gap, hanging, " µm, bridged")):
+        axes = panel_of(draw_path, replace(drawn, scene=replace(drawn.scene, spalls=(one,))))
+        length, told = axes.get_title(loc="left").removesuffix(end).split(" mm, drop ")
+        assert length.endswith("spall of 2° = 0.801")
+        assert float(told) == pytest.approx(drop, rel=0.02)  # of a parabola for a circle
 
 
 def test_the_path_runs_downwards_and_its_deepest_place_is_the_middle_of_the_floor(portrait):

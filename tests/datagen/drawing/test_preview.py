@@ -9,7 +9,7 @@ from command_line import run
 from datagen.drawing.frequency_panels import cursors, draw_envelope_spectrum, line_heights
 from datagen.drawing.path_panels import load_around, load_over_spall
 from datagen.drawing.portrait_sources import corpus_portrait, recipe_portrait
-from datagen.drawing.preview import draw_preview
+from datagen.drawing.preview import draw_preview, preview_png
 from datagen.drawing.sheet import DPI, HEIGHT, WIDTH, care, draw_sheet, heading, sheet_png, summary
 from datagen.drawing.style import house_style, with_panels
 from datagen.drawing.time_panels import draw_close_up, draw_spectrogram, free_lanes, vertical_modes
@@ -317,6 +317,17 @@ def test_a_recipe_and_the_corpus_made_from_it_give_the_same_preview(recipe_file,
     assert drawn["released"] >= drawn["passes"] - 2
     for name in ("recipe.png", "corpus.png"):
         assert png_size((tmp_path / name).read_bytes()) == (WIDTH * DPI, HEIGHT * DPI)
+
+
+def test_the_facts_of_a_preview_are_those_of_the_pass_that_it_shows(portrait, monkeypatch):
+    drawn = portrait("line, outer")
+    held = np.where(np.arange(len(drawn.passes)) == 0, np.nan, drawn.passes.release_time)
+    table = replace(drawn.passes, release_time=held)  # of all but the first pass
+    monkeypatch.setattr("datagen.drawing.portrait_sources.recipe_portrait", lambda *_: replace(drawn, passes=table))
+    monkeypatch.setattr("datagen.drawing.sheet.sheet_png", lambda _: b"")
+    _, facts = preview_png("made by hand", 5)
+    assert (facts["passes"], facts["released"]) == (len(table), len(table) - 1)
+    assert facts["shown_pass"]["entry_time"] == table.entry_time[drawn.shown_pass] > table.entry_time[0]
 
 
 @pytest.fixture

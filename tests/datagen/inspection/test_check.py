@@ -6,6 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
+import pandas
 import pytest
 import xarray
 from command_line import run
@@ -374,6 +375,34 @@ def test_a_record_made_again_may_differ_by_a_thousandth_of_its_rms(
     assert all(
         f"record 0 simulated again from its scenario {text}" in line for text, line in zip(told, problems, strict=True)
     )
+
+
+def test_the_largest_difference_of_the_records_made_again_is_told(copy: Path) -> None:
+    def amplify(dataset: xarray.Dataset) -> xarray.Dataset:
+        attributes = dataset["acceleration"].attrs
+        return dataset.assign(acceleration=(dataset["acceleration"] * np.float32(1.25)).assign_attrs(attributes))
+
+    forge(copy, 0, amplify)
+    code, shown, _ = run("check", copy, "--remake", 2)
+    assert code == 1
+    assert "simulated again from its scenario: record 0, 13; differs by 0.2 of its RMS" in shown  # 0.25 of 1.25
+
+
+def test_records_of_other_physics_are_not_made_again_and_that_is_said(copy: Path) -> None:
+    for path in (copy / "manifest.json", *(copy / "shards").glob("*.json")):
+        content = json.loads(path.read_text())
+        content["identity"]["model_hash"] = "0" * 16
+        path.write_text(json.dumps(content))
+    said = "not simulated again: this program's version of the physics differs from the corpus's\n"
+    assert check_corpus(copy, remake=2).remade == ()
+    assert [run("check", copy, "--remake", count)[1].endswith(said) for count in (1, 0)] == [True, False]
+
+
+def test_records_of_unknown_bearings_may_be_in_any_split(copy: Path) -> None:
+    index = pandas.read_csv(copy / "index.csv", keep_default_na=False)
+    index["bearing_id"], index["split"] = "unknown", ["train", "test"] * 7
+    index.to_csv(copy / "index.csv", index=False)
+    assert not [sentence for sentence in check_corpus(copy).problems if "more than one split" in sentence]
 
 
 def test_a_path_that_this_locale_cannot_encode_is_told_with_what_to_do(

@@ -153,6 +153,12 @@ def test_large_numbers_have_no_powers_of_ten_in_the_table_and_on_the_card(folder
     assert "| `rate_hz` | Hz | 12000 | 51200 | 102400 |  |" in card
 
 
+def test_sizes_are_told_in_megabytes_and_refusals_a_record_that_was_made(info: Info) -> None:
+    shown = shown_text(replace(info, asked=24, record_bytes=2.5e6, refused={"machine: fill": Refused(3, "too full")}))
+    assert "2.50 MB a record" in shown
+    assert "3 │      0.250 │ too full" in shown  # of 12 records
+
+
 def test_counts_of_shards_add_up_and_keep_the_first_reason() -> None:
     one = count_refused([Redraw("record", 0, "extent", "too long"), Redraw("record", 1, "extent", "longer")])
     other = count_refused([Redraw("machine", 0, "", "no idea"), Redraw("record", 0, "extent", "far too long")])
@@ -177,6 +183,7 @@ def test_info_names_shards_that_cannot_be_read_and_advises_check(damage: str, co
     DAMAGES[damage](copy / shards[1].file)
     code, shown, message = run("info", copy, "--json", tmp_path / "info.json")
     assert (code, message) == (0, f"1 of {len(shards)} shards cannot be read: run `spallgen check {copy}`\n")
+    assert "12 of 14 asked for" in shown
     assert f"{shards[1].file}, with 2 records" in " ".join(shown.replace("│", " ").split())
     field = "missing_files" if damage == "gone" else "damaged_files"
     assert json.loads((tmp_path / "info.json").read_text())[field] == {shards[1].file: 2}
@@ -214,6 +221,7 @@ def test_words_of_simulations_are_not_said_of_recordings(tmp_path: Path) -> None
     everything = "condition, location, rig, bearing, profile, contact_law, split"
     assert f"part all 2 unknown of all {everything}" in shown
     assert "records by condition and" not in shown
+    assert "physics" not in run("check", out)[1]  # of which recordings have none
     Path(out / read_manifest(out).shards[0].file).unlink()
     assert "1 of 2 recordings" in " ".join(run("info", out)[1].replace("│", " ").split())
 

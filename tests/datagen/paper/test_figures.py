@@ -8,16 +8,20 @@ import numpy as np
 import pytest
 
 from datagen.drawing.style import house_style
+from datagen.paper import figure06_stiffness, figure07_contact_forces
 from datagen.paper import published as published_module
 from datagen.paper.book import CHAPTERS
 from datagen.paper.figure05_load_distribution import distribution
-from datagen.paper.figure06_stiffness import STEPS, period, stiffness
-from datagen.paper.figure07_contact_forces import forces
+from datagen.paper.figure06_stiffness import STEPS, Stiffness, period, stiffness
+from datagen.paper.figure07_contact_forces import Forces, forces
 from datagen.paper.figure08_velocity_spectra import FIRST_READ, harmonics
+from datagen.paper.figure09_envelope_spectra import pole_band
+from datagen.paper.figure10_band_spectra import band_level
 from datagen.paper.figure11_fan_rig import Recording, vertical_modes
 from datagen.paper.published import published
 from datagen.paper.scenes import RATE, SEEDS, SHOWN_SEED, scene
-from datagen.paper.simulated import simulated
+from datagen.paper.simulated import shown, simulated
+from labels.envelope import band_envelope, squared_envelope_spectrum
 from labels.truth import PassTable
 from physics.reference_scenes import gap_line_spall, line_spall
 from physics.statics.load_distribution import require_equilibrium
@@ -121,6 +125,83 @@ def test_every_row_says_where_the_paper_says_it_and_every_panel_is_named(key, ch
         figure = one.draw()
     named = [axes for axes in figure.axes if axes.get_title(loc="left")]
     assert len(named) >= 4
+
+
+def drawn(draw, *numbers):
+    """The panels of the figure that `draw` makes of the numbers, by the letter of their title."""
+    with house_style():
+        figure = draw(*numbers)
+    return {axes.get_title(loc="left")[1]: axes for axes in figure.axes if axes.get_title(loc="left")}
+
+
+def curves(axes):
+    """What each named line of a panel shows, (N, 2)."""
+    return {line.get_label(): np.asarray(line.get_xydata(), dtype=float) for line in axes.lines}
+
+
+def test_the_loads_of_figure_5_are_those_of_the_row_they_are_named_after(chapter):
+    named = curves(drawn(chapter("5").draw)["e"])
+    spalled, sound = named["row 1, line spall"], named["row 2, without spall"]
+    bottom = np.argmin(np.abs(spalled[:, 0] - 270.0))
+    assert spalled[bottom, 1] == 0.0 < sound[bottom, 1]
+
+
+def test_the_stiffness_of_figure_6_is_that_of_the_row_it_is_named_after():
+    cage = np.linspace(0.0, 59.0, 60)
+
+    def made(first, second):
+        return Stiffness(cage, np.array([first, second])[:, None, None] * np.ones((2, 60, 3)), 1.0)
+
+    rows = {"healthy": made(1.0, 2.0), "line": made(4.0, 8.0), "extended": made(16.0, 32.0)}
+    panels = drawn(figure06_stiffness.draw, rows)
+    for letter, name, first in (("c", "line", 4.0), ("d", "extended", 16.0)):
+        assert {name: line[0, 1] for name, line in curves(panels[letter]).items()} == {
+            "healthy, one row": 1.0, "healthy, other row": 2.0, "healthy, both rows": 3.0,
+            f"row 1, {name} spall": first, "row 2, without spall": 2.0 * first, "both rows, spalled": 3.0 * first,
+        }  # fmt: skip
+
+
+def test_the_forces_of_figure_7_are_those_of_the_ball_they_are_named_after():
+    time = np.arange(round(0.2 * RATE)) / RATE
+    force = np.arange(1.0, 13.0) * np.ones((time.size, 2, 1))  # as many newtons as the number of the ball
+    made = Forces(time, force, force, np.ones((time.size, 1)) * [1.0, 2.0], {6: 0.116}, {6: 0.118})
+    panels = drawn(figure07_contact_forces.draw, {"line": made, "extended": made}, made)
+    for letter in "abcd":
+        named = curves(panels[letter])
+        assert {name: line[0, 1] for name, line in named.items() if name.startswith("ball")} == {
+            f"ball {ball}": float(ball) for ball in range(3, 10)
+        }
+    net = curves(panels["f"])
+    assert net["net, along the load, less 346 N"][0, 1] == 2.0
+    assert net["net, across the load"][0, 1] == 1.0
+
+
+def test_the_bars_of_the_line_spall_in_figure_8_stand_at_the_harmonics(chapter):
+    (bars,) = drawn(chapter("8").draw)["c"].collections
+    middles = [bar[:, 0].mean() for bar in bars.get_segments()]
+    assert middles == pytest.approx(34.283 * np.arange(1, 14), rel=2e-5)  # last printed digit
+
+
+def test_the_envelopes_of_figure_9_are_those_of_the_band_above_them(chapter):
+    panels = drawn(chapter("9").draw)
+    for letter, band in (("c", (10200.0, 10400.0)), ("d", pole_band())):
+        square = squared_envelope_spectrum(band_envelope(shown("line"), RATE, band), RATE)[1]
+        line = panels[letter].lines[0].get_ydata()
+        assert line == pytest.approx(square[1 : 1 + line.size])
+
+
+def test_the_spectra_of_figure_10_are_those_of_the_spall_they_are_named_after(chapter):
+    panels = drawn(chapter("10").draw)
+    for letter, name, words in (("a", "line", "line spall"), ("b", "extended", "extended spall")):
+        frequency, level = band_level(shown(name))
+        assert curves(panels[letter])[words] == pytest.approx(np.column_stack([1e-3 * frequency, level]))
+
+
+def test_the_passes_shaded_in_figure_11_lie_in_its_window(chapter):
+    trace = drawn(chapter("11").draw)["a"]
+    begun = [patch.get_x() for patch in trace.patches if 0.0 < patch.get_x() < trace.get_xlim()[1]]
+    assert begun[0] == pytest.approx(2.0)  # ms: the window begins so long before
+    assert len(begun) == 2
 
 
 @pytest.mark.parametrize("key", ["5", "6", "7", "8", "9", "10", "11"])

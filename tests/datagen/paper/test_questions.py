@@ -180,6 +180,84 @@ def test_the_tables_of_the_questions_have_a_row_for_every_case():
     assert len(third) == 2 * 3 * (len(question3_slip.TABLED) + 1)
 
 
+def answering(title, wave=2.0, deviation=8.0, sixth=6, ratio=3.0):
+    """What a profile does that is 2 dB above the line spall, whose strongest harmonic and envelope are as given."""
+    profile = Profile("long", title, (), 4.0, deviation, wave)
+    return Outcome(profile, np.full((10, 13), 2.0), np.full(10, sixth), np.full(10, ratio))
+
+
+def test_a_profile_answers_yes_only_if_it_does_both():
+    assert not answering("elsewhere", sixth=5).lifts
+    found = [
+        answering(CHOSEN), answering("lifts", ratio=0.5), answering("lifts too", ratio=0.5),
+        answering("keeps", sixth=5),
+    ]  # fmt: skip
+    assert "Of 4 profiles 3 lift the lines and 1 do so with the envelope's order kept" in answer(found)
+    (yes,) = (row for row in question1_extended_profiles.rows(found) if row.quantity == "profiles that answer yes")
+    assert (yes.ours, yes.unit) == (1.0, "of 4")
+
+
+def test_each_draw_is_held_against_the_line_spall_under_the_same_slip(monkeypatch):
+    level = {"simulated": lambda *_: (1.0, 2.0), "signal": lambda _: 5.0, "envelope_line": lambda found: found}
+    for name, made in (level | {"harmonics": lambda found: np.full(13, found)}).items():
+        monkeypatch.setattr(f"datagen.paper.profile_search.{name}", made)
+    found = outcome(Profile("reference", "two", (reference_extended_spall(0),) * 2))
+    assert found.above[:, 0].tolist() == [4.0, 3.0]
+    assert found.envelope_ratio.tolist() == [0.2, 0.4]
+
+
+def test_the_maps_of_the_waves_name_and_frame_each_profile_in_its_place():
+    outcomes = [
+        answering(CHOSEN, 2.0, 8.0), answering("b", 4.0, 8.0, ratio=0.5), answering("c", 2.0, 1.0, sixth=5),
+        answering(REFERENCE, math.nan), answering(SMOOTH, math.nan),
+    ]  # fmt: skip
+    with house_style():
+        axes = question1_extended_profiles.draw(outcomes).axes[2]
+    assert [label.get_text() for label in axes.get_xticklabels()] == ["2", "4"]  # mm
+    # 20 lg of the ratios of amplitudes 3 and 0.5, above the deviation of 1 µm and of 8 µm
+    assert {text.get_position(): text.get_text() for text in axes.texts} == {
+        (0, 1): "+10", (1, 1): "-6", (0, 0): "+10"
+    }  # fmt: skip
+    assert np.ma.filled(axes.images[0].get_array(), 0.0) == pytest.approx(
+        np.array([[9.54, 0.0], [9.54, -6.02]]), abs=0.01
+    )
+    (frame,) = axes.patches
+    assert (frame.get_x(), frame.get_y()) == (-0.46, 1.0 - 0.44)
+
+
+def test_sidebands_are_seen_six_decibels_above_what_leaks(monkeypatch):
+    monkeypatch.setattr(question2_unequal_balls, "strongest_of_all", lambda _: np.zeros(5))
+    deviations = question2_unequal_balls.DEVIATIONS_UM
+    levels = 20.0 * np.log10(deviations)[:, None, None] * np.ones((len(deviations), 5, 13))
+    found = {"line": question2_unequal_balls.Sidebands(deviations, levels, levels)}
+    floor = {"line": question2_unequal_balls.Sidebands((0.0,), np.full((1, 5, 13), -16.0), np.zeros((1, 5, 13)))}
+    verdicts = [row.agrees for row in question2_unequal_balls.rows(found, floor) if row.agrees is not None]
+    assert verdicts == [deviation > 10.0**-0.5 for deviation in deviations]  # -10 dB
+    spread = np.array([-3.0, -2.0, 0.0, 4.0, 8.0])[:, None] + levels
+    with house_style():
+        figure = question2_unequal_balls.draw(
+            {"line": question2_unequal_balls.Sidebands(deviations, spread, spread)}, floor
+        )
+    (curve,) = (line for line in figure.axes[0].lines if line.get_label() == "line, no slip")
+    assert curve.get_ydata() == pytest.approx(20.0 * np.log10(deviations))
+
+
+def test_drops_are_judged_and_drawn_beside_those_predicted_for_their_own_slip():
+    heights = {slip: np.exp(100.0 * slip * (np.arange(20.0) < 10.0) - 100.0 * slip) for slip in question3_slip.SLIPS}
+    smearing = question3_slip.Smearing("gearbox", heights)
+    table = {row.quantity: row for row in question3_slip.rows([smearing])}
+    title = "gearbox rig, slip 1.0%, harmonic {} over that without slip"
+    assert [table[title.format(k)].agrees for k in (5, 10, 20)] == [False, False, True]
+    drop = np.where(np.arange(20) < 10, 0.0, -20.0 / math.log(10.0))
+    away = np.sqrt(np.mean((drop - predicted_drop("gearbox", 0.01)) ** 2))
+    assert table["gearbox rig, slip 1.0%, RMS of measured less predicted"].ours == pytest.approx(away)
+    with house_style():
+        lines = question3_slip.draw([smearing] * 2).axes[0].lines
+    for curve, dots in zip(lines[0:6:2], lines[1:6:2], strict=True):
+        slip = float(dots.get_label().removeprefix("slip ").removesuffix("%")) / 100.0
+        assert curve.get_ydata() == pytest.approx(predicted_drop("gearbox", slip))
+
+
 @pytest.mark.slow
 def test_the_chosen_profile_answers_yes_over_its_ten_draws(chosen):
     found = outcome(chosen)

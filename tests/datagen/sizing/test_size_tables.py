@@ -66,7 +66,8 @@ def test_figures_say_whether_they_are_met_and_those_without_records_are_left_out
     scored: Callable[..., ScoredRecord],
 ) -> None:
     heard = {"events_in_time": EventScores(8, 16, 10), "events_in_arc": EventScores(4, 16, 10)}
-    records = [scored({"record": k, "snr_db": 99.0}, {"lag": 0.0044}, **heard) for k in range(20)]  # 10 % wrong
+    truths = [{"record": k, "bearing_id": f"b{k}", "snr_db": 99.0} for k in range(20)]
+    records = [scored(truth, {"lag": 0.0044}, **heard) for truth in truths]  # 10 % wrong
     found = columns(summary_table(summarise(records, True)))
     met = dict(zip(found["figure"], found["met"], strict=True))
     assert (met["lag error, clean"], met["arc error, clean"]) == ("NO", "yes")
@@ -76,6 +77,8 @@ def test_figures_say_whether_they_are_met_and_those_without_records_are_left_out
     assert (number["lag error, clean"], number["events within 100 us: F1"]) == ("20", "200 events")
     assert value["events within 100 us: F1"] == "0.615"  # 2 · 8 of 16 + 10
     assert value["events within 0.5 degrees: F1"] == "0.308"
+    reach = dict(zip(found["figure"], found["90 % interval"], strict=True))
+    assert reach["events within 100 us: F1"] == "0.615 to 0.615"  # all records are alike
 
 
 def test_what_a_known_size_changed_is_told_in_its_own_numbers() -> None:

@@ -114,8 +114,10 @@ def _tach_speeds(
 ) -> Iterator[ShaftSpeed]:
     for start, stop in pieces:
         rpm = tach_speed(source, tach, times, start / rate, stop / rate)
-        angle = shaft_angle(times, tach.pulses_per_rev, np.arange(start, stop) / rate)
-        yield ShaftSpeed(rpm, "tach", _unless_steady(angle), wrong)
+        angle = _unless_steady(shaft_angle(times, tach.pulses_per_rev, np.arange(start, stop) / rate))
+        if angle is not None:  # of a changing speed, the mean between pulses is not that of the record
+            rpm = float(angle[-1] / (angle.size - 1) * rate / RPM)
+        yield ShaftSpeed(rpm, "tach", angle, wrong)
 
 
 def _stated_speeds(source: Source, rate: float, size: int, pieces: list[tuple[int, int]]) -> Iterator[ShaftSpeed]:

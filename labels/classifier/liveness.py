@@ -31,6 +31,8 @@ WHITE = 0.05
 WHITE_BANDS = 24
 # Shares of the bandwidth that are looked at: below and above recorders let through less.
 WHITE_FROM, WHITE_TO = 0.1, 0.8
+# Lines of the shaft and of passing balls that are looked for, below the top of STILL_BAND or so many times the shaft's.
+LINES = 6
 # Nats of shaft harmonics or passing balls that show a turning shaft however little it shakes.
 TURNING_EVIDENCE = 30.0
 # In fewer turns the lines of a quietly running machine do not stand out, so their absence proves nothing.
@@ -113,13 +115,15 @@ def _colour(analysis: Analysis) -> float:
 def _turning(analysis: Analysis) -> float:
     """Evidence (nats) of shaft harmonics or passing balls in the vibration, without mains tones and strongest line."""
     spectrum, step = analysis.record.raw, analysis.record.step
-    power = np.abs(spectrum[None, : int(STILL_BAND[1] / step)]) ** 2
-    excess = vibration_excess(power, step, analysis.given.shaft_hz)
-    frequency = np.arange(excess.shape[-1]) * step
-    lines = lines_in(np.where(_hum(frequency, step) | (frequency <= 2.0 * step), 1.0, excess), step)
     known = analysis.given
+    top = max(STILL_BAND[1], (LINES + 1) * known.shaft_hz)
+    power = np.abs(spectrum[None, : int(top / step)]) ** 2
+    excess = vibration_excess(power, step, known.shaft_hz)
+    frequency = np.arange(excess.shape[-1]) * step
+    hum = _hum(frequency, step) & (frequency <= STILL_BAND[1])  # beyond, its margins would cover the axis
+    lines = lines_in(np.where(hum | (frequency <= 2.0 * step), 1.0, excess), step)
     found = [
-        find_family(lines, order * known.shaft_hz, known.speed_within, known.shaft_hz, harmonics=6).parts[0]
+        find_family(lines, order * known.shaft_hz, known.speed_within, known.shaft_hz, harmonics=LINES).parts[0]
         for order in (1.0, known.bpfo, known.bpfi)
     ]
     return float(max(parts.sum() - parts.max() for parts in found))

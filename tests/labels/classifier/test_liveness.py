@@ -84,6 +84,16 @@ def test_a_quiet_shaft_that_turns_is_not_stopped():
     assert found(noise + turning).reason == ""
 
 
+@pytest.mark.parametrize("shaft_hz", [500.0, 517.0, 719.0])
+def test_a_fast_shaft_that_turns_is_not_stopped(shaft_hz):
+    """Of its harmonics one alone lies below 1 kHz, where 500 and 719 Hz count as multiples of the mains."""
+    noise = 0.02 * np.random.default_rng(1).standard_normal(TIME.size)
+    turning = sum(0.01 / k * np.cos(2.0 * np.pi * shaft_hz * k * TIME) for k in range(1, 7))
+    known = bearing_kinematics(12, 30e-3, 6e-3, 0.26, shaft_hz)
+    assert found(noise, known=known).reason == STOPPED
+    assert found(noise + turning, known=known).reason == ""
+
+
 def test_in_a_few_turns_nothing_says_that_a_machine_stands_still():
     noise = 5e-3 * np.random.default_rng(0).standard_normal(TIME.size)
     slow = bearing_kinematics(16, 71.5e-3, 8.407e-3, 0.2648, 7.0)

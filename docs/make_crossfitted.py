@@ -14,8 +14,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from make_transfer import AUC, FAULTS, PAGE, RACE, calibration, counted, interval
 from marked_tables import write_marked
+from transfer_page import AUC, CROSSFITTED, FAULTS, PAGE, RACE, calibration, counted, interval
 
 from datagen.benchmark.chosen import ChosenRecords
 from datagen.benchmark.corpus_rows import read_rows
@@ -28,7 +28,6 @@ from datagen.corpus import Corpus
 from datagen.files.text_tables import markdown_table
 
 FOLDS = 5
-FOUND = Path(__file__).with_name("crossfitted.json")
 
 
 def judged_by_others(folder: Path) -> list[Tested]:
@@ -77,7 +76,7 @@ def table(kept: dict[str, Any]) -> str:
 def main(folder: Path) -> None:
     """Judge, keep the scores and write the table."""
     kept = report(folder, summarise(pool(judged_by_others(folder))))
-    FOUND.write_text(json.dumps(kept, indent=1) + "\n", encoding="utf-8")
+    CROSSFITTED.write_text(json.dumps(kept, indent=1) + "\n", encoding="utf-8")
     write_marked(PAGE, "crossfitted", __file__, table(kept))
 
 

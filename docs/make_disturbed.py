@@ -16,10 +16,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from joblib import Parallel, delayed
-from make_draws import ODD
 from marked_tables import write_marked
 from numpy.typing import NDArray
 from scipy.signal import fftconvolve, resample_poly
+from transfer_page import ODD, PAGE
 
 from datagen.benchmark.chosen import ChosenRecords, chosen_records
 from datagen.benchmark.corpus_rows import CorpusRows, rows_of_records
@@ -39,7 +39,6 @@ from physics.bearing import RACES
 if TYPE_CHECKING:
     import pandas
 
-PAGE = Path(__file__).with_name("transfer.md")
 SEED, WORKERS = 20261122, 2
 # Seconds after which a knock has died away.
 RINGS_FOR = 0.02

@@ -8,12 +8,11 @@ from __future__ import annotations
 
 import argparse
 import json
-from collections import Counter
-from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from transfer_page import ODD, require_different_names
 
 from datagen.benchmark.chosen import chosen_records
 from datagen.benchmark.corpus_rows import read_rows
@@ -23,24 +22,10 @@ from datagen.benchmark.summary import race_balance
 from datagen.benchmark.training import TrainingSet, train_models, train_rule, training_records, training_set
 from datagen.benchmark.verdicts import Judges, Tested
 from datagen.corpus import Corpus
-from datagen.errors import BadInput
 from datagen.judging.scored_runs import write_line
 from physics.bearing import RACES
 
 DRAWS, SHARE, SEED = 5, 0.8, 100
-# Recordings of CWRU whose envelopes disagree with their label (docs/transfer.md), scored apart: of the drive end at
-# 12 kHz, and at 48 kHz.
-ODD = ("197", "198", "199", "174", "201")
-
-
-def require_different_names(folders: Iterable[Path]) -> None:
-    """Raise BadInput where two folders have one name, by which what is found in them is kept."""
-    counts = Counter(folder.absolute().name for folder in folders)
-    twice = ", ".join(name for name, count in counts.items() if count > 1)
-    if twice:
-        raise BadInput(
-            "several folders are called so", value=twice, field="FOLDER", allowed="a name of its own for each"
-        )
 
 
 def drawn(training: TrainingSet, draw: int) -> TrainingSet:

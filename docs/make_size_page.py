@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import argparse
 import json
-import math
 import re
 from pathlib import Path
 from typing import Any
@@ -16,10 +15,10 @@ from typing import Any
 from marked_tables import write_marked
 
 from datagen.files.text_tables import markdown_table
-from datagen.sizing.record_errors import NOISE_LEVELS, RULES, noise_name
+from datagen.sizing.record_errors import NOISE_LEVELS, RULES, noise_title
 
 PAGE = Path(__file__).with_name("size.md")
-LEVELS = tuple(noise_name(level) + ("" if level == math.inf else " dB") for level in NOISE_LEVELS)
+LEVELS = tuple(map(noise_title, NOISE_LEVELS))
 
 
 def figures(summary: dict[str, Any]) -> dict[str, dict[str, Any]]:

@@ -12,43 +12,27 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from make_draws import ODD, require_different_names
 from marked_tables import write_marked
 from numpy.typing import NDArray
+from transfer_page import (
+    AUC,
+    FAULTS,
+    ODD,
+    PAGE,
+    RACE,
+    calibration,
+    counted,
+    has_faults,
+    interval,
+    require_different_names,
+)
 
 from datagen.errors import BadInput
 from datagen.files.text_tables import markdown_table
-from labels.classifier.scores import FEWEST_A_SIDE, balanced_accuracy, exact_interval, paired_difference
+from labels.classifier.scores import balanced_accuracy, paired_difference
 from physics.bearing import RACES
 
-PAGE = Path(__file__).with_name("transfer.md")
 BACKGROUNDS = ("drawn layers", "drawn layers at a ratio", "recording at a ratio")
-FAULTS, RACE, AUC = "faults_balanced_accuracy", "race_accuracy", "detection_auc"
-
-
-def interval(found: dict[str, Any]) -> str:
-    """A score with its interval if it has one; a dash where it is not defined."""
-    if found["value"] is None:
-        return "–"
-    if found["low"] is None:
-        return f"{found['value']:.3f}"
-    return f"{found['value']:.3f} [{found['low']:.3f}, {found['high']:.3f}]"
-
-
-def counted(some: int, all_: int) -> str:
-    """A count with the 95 % interval of its share [Clopper & Pearson 1934]; a dash if nothing was counted."""
-    if all_ == 0:
-        return "–"
-    share = exact_interval(some, all_)
-    return f"{some} of {all_} [{share.low:.3f}, {share.high:.3f}]"
-
-
-def calibration(scores: dict[str, Any]) -> str:
-    """The calibration error; a dash for the rule, and with too few healthy records or faults to tell."""
-    by_truth = zip(scores["confusion"]["rows"], scores["confusion"]["counts"], strict=True)
-    faults = sum(sum(counts) for truth, counts in by_truth if truth in RACES)
-    few = min(scores["healthy"], faults) < FEWEST_A_SIDE
-    return "–" if few or "calibration_error" not in scores else f"{scores['calibration_error']:.3f}"
 
 
 def without_odd(test: dict[str, Any], model: str) -> str:
@@ -188,10 +172,6 @@ def learners_alarms(report: dict[str, Any], models: list[str], imported: bool) -
     counts = [sum(test[model]["false_alarms"] for test in tests) for model in models]
     span = f"{min(counts)} to {max(counts)}" if min(counts) < max(counts) else f"{counts[0]}"
     return f"{span} of {sum(test[models[0]]['healthy'] for test in tests)}"
-
-
-def has_faults(test: dict[str, Any]) -> bool:
-    return bool(test["locations"]["outer"] + test["locations"]["inner"])
 
 
 def alarms(report: dict[str, Any], model: str) -> str:

@@ -11,9 +11,8 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from make_crossfitted import FOUND
-from make_transfer import FAULTS, has_faults
 from matplotlib.figure import Figure
+from transfer_page import CROSSFITTED, FAULTS, has_faults
 
 from datagen.drawing.classifier_panels import (
     AGAINST,
@@ -42,7 +41,10 @@ HEADINGS = (
 
 def main(path: Path) -> None:
     """Draw the picture of one report, and of the scores of all machines judged by learners of others."""
-    report, of_others = json.loads(path.read_text()), json.loads(FOUND.read_text(encoding="utf-8"))["scores"]["models"]
+    report, of_others = (
+        json.loads(path.read_text()),
+        json.loads(CROSSFITTED.read_text(encoding="utf-8"))["scores"]["models"],
+    )
     PICTURE.write_bytes(png_of(lambda: draw(report, of_others), DPI))
 
 

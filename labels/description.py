@@ -8,6 +8,7 @@ import numpy as np
 
 from labels.schema import HEALTHY
 from physics.angular_speed import in_rpm
+from physics.bearing import Bearing
 from physics.cage import CagePath
 from physics.paths.profile import build_path
 from physics.scene import Scene
@@ -54,7 +55,12 @@ def condition(scene: Scene) -> str:
     spall = largest_spall(scene)
     if spall is None:
         return HEALTHY
-    return "extended" if is_extended(spall.extent, scene.rig.bearing) else "line"
+    return spall_condition(spall.extent, scene.rig.bearing)
+
+
+def spall_condition(extent: float, bearing: Bearing) -> str:
+    """ "line" or "extended" for a spall of that `extent` (rad)."""
+    return "extended" if is_extended(extent, bearing) else "line"
 
 
 def defect_values(scene: Scene) -> dict[str, object]:
@@ -68,7 +74,7 @@ def defect_values(scene: Scene) -> dict[str, object]:
         "extent": spall.extent,
         "extent_mm": spall.length(bearing) * 1e3,
         "extent_spacing": spall.extent / bearing.spacing,
-        "depth": floor_depth(spall),
+        "depth": spall.floor_depth,
         "path_depth": path.largest_depth,
         "bridged": path.bridged,
         "entry_taper": spall.entry_taper,
@@ -76,11 +82,6 @@ def defect_values(scene: Scene) -> dict[str, object]:
         "roughness": spall.roughness,
         "profile": spall.profile,
     }
-
-
-def floor_depth(spall: Spall) -> float:
-    """Depth of the spall's floor below the raceway, m: the largest value of a measured table, else its `depth`."""
-    return max(spall.table_depth) if spall.profile == "table" else spall.depth
 
 
 def slip_values(cage: CagePath) -> dict[str, float]:

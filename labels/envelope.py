@@ -64,10 +64,10 @@ def stored_envelope(signal: NDArray[np.float32], rate: float, band: Band) -> NDA
     return band_envelope(signal.astype(np.float64), rate, band).astype(np.float32)
 
 
-def squared_envelope_spectrum(envelope: Array, rate: float, window: str = "hann") -> tuple[Array, Array]:
+def squared_envelope_spectrum(envelope: Array, rate: float) -> tuple[Array, Array]:
     """Frequencies (F,) in Hz and one-sided amplitudes (F,) of the squared `envelope` (T,) without its mean.
 
-    The unit is the square of the envelope's. A squared envelope m + a cos(2π f t) has a line of height a at f, with
-    `window` "hann" (divided by its mean) as without ("none"). ValueError as `amplitude_spectrum`.
+    The unit is the square of the envelope's. A squared envelope m + a cos(2π f t) has a line of height a at f.
+    ValueError as `amplitude_spectrum`.
     """
-    return amplitude_spectrum(np.asarray(envelope, dtype=np.float64) ** 2, rate, window)
+    return amplitude_spectrum(np.asarray(envelope, dtype=np.float64) ** 2, rate)

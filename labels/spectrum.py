@@ -10,25 +10,19 @@ from scipy import fft
 from labels.window import periodic_hann
 from physics.arrays import Array
 
-WINDOWS = ("hann", "none")
 
-
-def amplitude_spectrum(signal: Array, rate: float, window: str = "hann") -> tuple[Array, Array]:
+def amplitude_spectrum(signal: Array, rate: float) -> tuple[Array, Array]:
     """Frequencies (F,) in Hz and one-sided amplitudes (F,), in the unit of the `signal` (T,), without its mean.
 
-    The periodic Hann window is divided by its mean, so a line a cos(2π f t) on a bin has height a with either window.
-    ValueError for an unknown window, fewer than two samples or a rate that is no finite number above 0.
+    The window is the periodic Hann window over its mean, so that a line a cos(2π f t) on a bin has height a. ValueError
+    for fewer than two samples or a rate that is no finite number above 0.
     """
     signal = np.asarray(signal, dtype=np.float64)
-    if window not in WINDOWS:
-        raise ValueError(f'window = "{window}"; allowed: {", ".join(WINDOWS)}')
     if signal.size < 2 or not 0.0 < rate < math.inf:
         raise ValueError(
             f"{signal.size} samples at {rate:g} Hz; a spectrum needs at least 2 samples and a rate above 0"
         )
-    centred = signal - signal.mean()
-    if window == "hann":
-        centred = centred * periodic_hann(signal.size)
+    centred = (signal - signal.mean()) * periodic_hann(signal.size)
     coefficients = fft.rfft(centred) * (2.0 / signal.size)
     # A component without a mirror image is not halved between two of them.
     coefficients[0] /= 2.0

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from labels.schema import HEALTHY, MEASURED
+from labels.schema import HEALTHY, MEASURED, UNKNOWN
 
 FAULT_TYPE = {
     "none": "normal",
@@ -16,9 +16,9 @@ FAULT_TYPE = {
     "ball": "rolling_element",
     "cage": "cage",
     "several": "bearing",
-    "unknown": "unknown",
+    UNKNOWN: "unknown",
 }
-SEVERITY = {HEALTHY: ("none", 0), "line": ("line", 1), "extended": ("extended", 2), "unknown": ("not graded", 1)}
+SEVERITY = {HEALTHY: ("none", 0), "line": ("line", 1), "extended": ("extended", 2), UNKNOWN: ("not graded", 1)}
 
 
 @dataclass(frozen=True)
@@ -69,7 +69,7 @@ def common_row(labels: Mapping[str, Any], axis: str) -> dict[str, object]:
         row[alias.column] = value * alias.factor if alias.factor != 1.0 else value
     severity, level = SEVERITY[str(labels["condition"])]
     healthy = labels["condition"] == HEALTHY
-    place = "none" if healthy else "unknown" if labels["location"] == "unknown" else "test_bearing"
+    place = "none" if healthy else "unknown" if labels["location"] == UNKNOWN else "test_bearing"
     return row | {
         "signal_id": f"{name}_{axis}",
         "channel": labels["channel"] or axis,

@@ -97,6 +97,11 @@ class Spall:
         shaped = self.entry_taper > 0.0 or self.exit_taper > 0.0 or bool(self.roughness_values)
         return self.extent if self.profile == "ball_path" and shaped else 0.0
 
+    @property
+    def floor_depth(self) -> float:
+        """Depth of the floor below the raceway, m: the largest value of a measured table, else `depth`."""
+        return max(self.table_depth) if self.profile == "table" else self.depth
+
     def _check_roughness(self) -> None:
         values = self.roughness_values
         if not values:

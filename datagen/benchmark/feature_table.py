@@ -15,6 +15,7 @@ from datagen.benchmark.plan import reading_of, training_reading_of
 from datagen.benchmark.record_rows import RecordFacts, RecordRows, Row
 from datagen.benchmark.request import require_bandwidth
 from datagen.corpus import Corpus
+from datagen.corpus_files.index import no_records
 from datagen.errors import BadInput
 from datagen.judging.splits import ALL, require_split
 from datagen.judging.truth import true_classes
@@ -88,7 +89,7 @@ def _labels(folder: Path, split: str) -> pandas.DataFrame:
     """Labels of the records of a split of the corpus in `folder`; raises BadInput where there are none."""
     labels = Corpus(folder).labels
     if labels.empty:
-        raise BadInput("this corpus has no records", file=str(folder))
+        raise no_records(folder)
     require_split(folder, labels["split"], split)
     return labels if split == ALL else labels[labels["split"] == split]
 

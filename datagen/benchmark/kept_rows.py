@@ -18,10 +18,10 @@ from pathlib import Path
 import numpy as np
 
 from datagen.benchmark.machines import LearnedMachines, machines
-from datagen.benchmark.options import FIRST, TRAIN, TRANSFER_ROWS, Learning
+from datagen.benchmark.options import TRAIN, TRANSFER_ROWS, Learning
 from datagen.benchmark.plan import training_reading_of
 from datagen.benchmark.rows import Rows
-from datagen.benchmark.training import FEWEST_BEARINGS, TrainingSet, training_records, training_set
+from datagen.benchmark.training import FEWEST_BEARINGS, TrainingSet, too_few_bearings, training_records, training_set
 from datagen.corpus import Corpus
 from datagen.counts import counted
 from datagen.errors import BadInput
@@ -58,8 +58,7 @@ class KeptRows:
         chosen = np.unique(rows.record)[:first]
         self._training = whole.subset(np.isin(rows.record, chosen))
         if np.unique(self._training.bearings).size < FEWEST_BEARINGS:
-            allowed = f"records of {FEWEST_BEARINGS} virtual bearings or more"
-            raise BadInput("too few virtual bearings to learn from", field=FIRST, value=first, allowed=allowed)
+            raise too_few_bearings(first)
 
     @cached_property
     def machines(self) -> LearnedMachines:

@@ -17,6 +17,7 @@ from datagen.benchmark.reading_policy import LEAST_NOISE_DB
 from datagen.benchmark.trained import is_saved
 from datagen.benchmark.verdicts import RULE
 from datagen.corpus import Corpus
+from datagen.corpus_files.index import no_records
 from datagen.corpus_files.manifest import manifest_path, no_corpus
 from datagen.errors import BadInput
 from datagen.files.places import require_file
@@ -142,7 +143,7 @@ def _require_folders(train: Path, tests: tuple[Path, ...], windows: bool) -> Non
             raise BadInput("this corpus is named twice", file=str(folder), field=TEST_ON)
         corpus = _corpus(folder, TEST_ON, "the folder of a corpus, simulated or imported")
         if corpus.labels.empty:
-            raise BadInput("this corpus has no records", file=str(folder), field=TEST_ON)
+            raise no_records(folder, TEST_ON)
         if corpus.manifest.imported:
             require_log(folder)
 

@@ -38,6 +38,7 @@ LOWEST_BANDWIDTH = 5500.0
 COPIES_DB = (-18.0, 12.0)
 # Virtual bearings; with fewer nothing is learned.
 FEWEST_BEARINGS = 4
+TOO_FEW, ENOUGH = "too few virtual bearings to learn from", f"{FEWEST_BEARINGS} virtual bearings or more"
 # Rows that an estimator is asked about at once, so that memory does not grow with the corpus.
 ROWS_AT_A_TIME = 2048
 # Rows that a user's estimator is asked about once fitted, so that a wrong answer is reported before scoring.
@@ -110,12 +111,16 @@ def training_records(folder: Path, also_tested: bool, first: int | None = None) 
     enough_in_all = chosen["bearing_id"].nunique() >= FEWEST_BEARINGS
     chosen = chosen.iloc[:first]
     if chosen["bearing_id"].nunique() < FEWEST_BEARINGS:
-        problem, enough = "too few virtual bearings to learn from", f"{FEWEST_BEARINGS} virtual bearings or more"
         if enough_in_all:
-            raise BadInput(problem, file=str(folder), field=FIRST, value=first, allowed=f"records of {enough}")
+            raise too_few_bearings(first, str(folder))
         outside = f" outside its split {TEST}" if also_tested else ""
-        raise BadInput(problem, file=str(folder), field=TRAIN, allowed=f"a corpus with {enough}{outside}")
+        raise BadInput(TOO_FEW, file=str(folder), field=TRAIN, allowed=f"a corpus with {ENOUGH}{outside}")
     return chosen
+
+
+def too_few_bearings(first: int | None, file: str = "") -> BadInput:
+    """The refusal of the `first` so many records, which are of too few virtual bearings."""
+    return BadInput(TOO_FEW, file=file, field=FIRST, value=first, allowed=f"records of {ENOUGH}")
 
 
 def training_set(

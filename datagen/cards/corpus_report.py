@@ -12,6 +12,7 @@ from datagen.cards.facts import Facts, Kind, corpus_facts
 from datagen.cards.origin_text import origin_text
 from datagen.cards.vocabulary_table import vocabulary_table
 from datagen.corpus import Corpus
+from datagen.corpus_files.index import no_records
 from datagen.corpus_files.manifest import read_manifest
 from datagen.errors import BadInput
 from datagen.files.atomic import is_temporary, write_results
@@ -47,7 +48,7 @@ def write_report(folder: str | Path, out: str | Path | None = None) -> Report:
     earlier = [path.name for path in _held(out) if _is_of_a_report(path)]
     facts = corpus_facts(folder)
     if not facts.info.records:
-        raise BadInput("this corpus holds no records yet", file=str(folder))
+        raise no_records(folder)
     contents = _contents(folder, facts, out)
     write_results(out, contents, gone=[name for name in earlier if name not in contents])
     return Report(str(out), tuple(contents), facts, unstated(facts))

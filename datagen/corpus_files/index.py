@@ -36,6 +36,11 @@ def index_path(folder: Path) -> Path:
     return folder / INDEX
 
 
+def no_records(folder: Path, field: str = "") -> BadInput:
+    """The refusal of a corpus without records, which the option `field` names."""
+    return BadInput("this corpus has no records", file=str(folder), field=field)
+
+
 def write_index(folder: Path, sidecars: Iterator[Sidecar]) -> int:
     """Write the index of the finished shards, in the order of the records; returns the number of rows.
 

@@ -26,7 +26,7 @@ from datagen.drawing.style import (
     whole_numbers,
     with_panels,
 )
-from labels.schema import LABEL
+from labels.schema import LABEL, UNKNOWN
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 PANEL_WIDTH, ROW_HEIGHT, DPI = 11.0 / 3.0, 2.7, 120
 ACROSS, MOST_DISTRIBUTIONS = 3, 5
 COLOURS = {"none": SKY, "outer": BLUE, "inner": VERMILLION, "ball": GREEN, "cage": PURPLE, "several": ORANGE}
-SPLIT_COLOURS = {"train": BLUE, "validation": ORANGE, "test": GREEN, "unknown": GREY}
+SPLIT_COLOURS = {"train": BLUE, "validation": ORANGE, "test": GREEN, UNKNOWN: GREY}
 WORTH_SHOWING = ("speed_rpm", "load_n", "extent_mm", "snr_db", "depth", "mean_slip", "rate_hz", "error_estimate")
 TITLES = {"snr_db": "SNR"}
 SHOWN_IN = {"depth": (1e6, "µm")}
@@ -115,7 +115,7 @@ def draw_distribution(axes: Axes, labels: pandas.DataFrame, column: str) -> None
     distinct = _values(labels, column) * factor
     stacked = [
         (place, known[table["location"] == place].to_numpy())
-        for place in (*COLOURS, "unknown")
+        for place in (*COLOURS, UNKNOWN)
         if (table["location"] == place).any()
     ]
     colours = [COLOURS.get(place, GREY) for place, _ in stacked]

@@ -9,13 +9,12 @@ from typing import Any
 from datagen.errors import BadInput
 from datagen.recordings.settings import MOST_BALLS, BearingNumbers
 from datagen.recordings.source import Source
-from labels.description import NO_SPALL
+from labels.description import NO_SPALL, spall_condition
 from labels.schema import HEALTHY, LABELS, MEASURED, UNKNOWN, Label
 from physics.bearing import RACES, Bearing
 from physics.catalog import bearing as catalogue_bearing
 from physics.checks import InvalidParameter
 from physics.hertz import BALL_EXPONENT
-from physics.spall import EXTENDED_FROM
 
 UNSOLVED: dict[str, Any] = {"model": MEASURED, "method": "none", "validity": "", "contact_law": UNKNOWN}
 NUMBERS = (
@@ -167,8 +166,8 @@ def _defect_labels(source: Source, bearing: Bearing | None) -> dict[str, Any]:
             )  # fmt: skip
         return {"condition": HEALTHY, "location": "none", "spalls": 0} | NO_SPALL
     derived = UNKNOWN
-    if "extent_spacing" in sizes:
-        derived = "extended" if sizes["extent_spacing"] >= EXTENDED_FROM else "line"
+    if bearing and "extent" in sizes:
+        derived = spall_condition(sizes["extent"], bearing)
     if condition not in (UNKNOWN, derived) and derived != UNKNOWN:
         raise BadInput(
             f"the defect covers {sizes['extent_spacing']:.3g} ball spacings, which makes it {derived}",

@@ -25,7 +25,7 @@ from datagen.recordings.recorded import Recorded, read_recording
 from datagen.recordings.spec import Spec
 from datagen.recordings.spec_files import shipped_specs
 from datagen.recordings.staging import staged
-from datagen.recordings.unchanged import require_unchanged
+from datagen.recordings.unchanged import changed, require_unchanged
 from datagen.versions import program_hash, program_versions
 
 if TYPE_CHECKING:
@@ -172,7 +172,7 @@ def _read_again(shard: list[PlannedRecord]) -> Iterator[Recorded]:
         for piece, record in enumerate(read_recording(request, band)):
             if piece in pieces:
                 if record.content != pieces[piece].content:
-                    raise BadInput("the file changed while it was being imported", file=str(request.path))
+                    raise changed(request.path)
                 yield record
 
 

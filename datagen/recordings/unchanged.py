@@ -17,7 +17,12 @@ def require_unchanged(path: Path) -> None:
     is remembered, so it would show none.
     """
     if _state(path) != first_state(path):
-        raise BadInput("the file changed while it was being imported", file=str(path))
+        raise changed(path)
+
+
+def changed(path: Path) -> BadInput:
+    """The refusal of a file that is no longer what it was at the first look at it."""
+    return BadInput("the file changed while it was being imported", file=str(path))
 
 
 @lru_cache(maxsize=100_000)

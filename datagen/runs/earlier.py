@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from datagen.corpus_files.format import Identity
 from datagen.corpus_files.manifest import DamagedManifest, Span, add_spans, manifest_path, read_manifest
@@ -55,7 +54,8 @@ def earlier_runs(folder: Path, recipe: Recipe, identity: Identity) -> Earlier:
                 raise BadInput(
                     "this folder holds imported recordings: choose another folder", file=str(folder), field=OUT
                 )
-            _require_same(identity, manifest.identity, folder, f"the corpus {manifest.name}", (manifest.recipe, recipe))
+            changed = differing_settings(manifest.recipe, recipe.model_dump(mode="json"))
+            _require_same(identity, manifest.identity, folder, f"the corpus {manifest.name}", changed)
             return Earlier(manifest.asked)
         damage = None
     except DamagedManifest as problem:
@@ -90,16 +90,15 @@ def _require_same(
     found: Identity,
     folder: Path,
     held: str = "the corpus",
-    recipes: tuple[dict[str, Any], Recipe] | None = None,
+    changed: Sequence[str] = (),
 ) -> None:
-    """Raise BadInput unless the identity `found` is the wanted one; if the `recipes`, then and now, are known, it tells
-    some of what has changed."""
+    """Raise BadInput unless the identity `found` is the wanted one; it names some of the settings that have `changed`,
+    where these are known."""
     others = {part: other for part, other in BEGUN_WITH.items() if getattr(found, part) != getattr(identity, part)}
     if others:
-        if recipes is not None and "recipe_hash" in others:
-            changed = differing_settings(recipes[0], recipes[1].model_dump(mode="json"))
+        if changed and "recipe_hash" in others:
             more = f" and {len(changed) - MOST_CHANGES} more" if len(changed) > MOST_CHANGES else ""
-            others["recipe_hash"] += f" (then {', '.join(changed[:MOST_CHANGES])}{more})" if changed else ""
+            others["recipe_hash"] += f" (then {', '.join(changed[:MOST_CHANGES])}{more})"
         raise BadInput(
             f"{held} in this folder was begun with {', and with '.join(others.values())}; a corpus never mixes them: "
             "choose another folder, or delete this one",

@@ -12,6 +12,7 @@ from datagen.recipes.operation_settings import ANY_ANGLE
 from datagen.recipes.profile_table import ProfileTable
 from datagen.scenarios.draw import Draw
 from datagen.scenarios.picker import DEGREES_PER_RADIAN, Picker
+from labels.schema import HEALTHY
 from physics.bearing import Bearing
 from physics.checks import InvalidParameter, require
 from physics.hertz import contact_width
@@ -32,7 +33,7 @@ def draw_spalls(settings: DefectSettings | None, bearing: Bearing, load: float, 
         return ()
     pick = draw.picker("defect")
     kind = draw.intended.settle((pick.word(settings.condition), pick.word(settings.race), pick.word(settings.profile)))
-    if kind[0] == "healthy":
+    if kind[0] == HEALTHY:
         return ()
     turn = draw.turns.turn
     try:

@@ -37,7 +37,7 @@ def farthest_rest(scene: Scene) -> float:
 
 
 def _deepest_floor(scene: Scene) -> float:
-    spalls = max((spall.depth + 6.0 * spall.roughness for spall in scene.spalls), default=0.0)
+    spalls = max((spall.floor_depth + 6.0 * spall.roughness for spall in scene.spalls), default=0.0)
     waviness = sum(wave.amplitude for wave in scene.imperfections.waviness)
     deviation = max((abs(value) for row in scene.imperfections.ball_deviation for value in row), default=0.0)
     return spalls + waviness + deviation + max(scene.rig.bearing.clearance, 0.0)

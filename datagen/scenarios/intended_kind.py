@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from datagen.recipes.defect_settings import Combination
+from labels.schema import HEALTHY
 
 
 class IntendedKind:
@@ -21,7 +22,7 @@ class IntendedKind:
     def settle(self, drawn: Combination) -> Combination:
         """The kind that an attempt is to have, given the one it has `drawn`; binding from now on, unless `release`
         follows."""
-        if self.kind is None or not (self._is_binding or drawn[0] == "healthy"):
+        if self.kind is None or not (self._is_binding or drawn[0] == HEALTHY):
             self.kind = drawn
         self._was_binding, self._is_binding = self._is_binding, True
         return self.kind

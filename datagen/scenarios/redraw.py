@@ -10,6 +10,7 @@ from datagen.scenarios.deciders import deciders
 from datagen.scenarios.refused import Redraw
 from datagen.settings.problems import dotted
 from datagen.settings.toml_lines import Location, place_in_file
+from labels.schema import HEALTHY
 
 if TYPE_CHECKING:
     from datagen.recipes.defect_settings import Combination
@@ -43,7 +44,7 @@ def _as_meant(kind: Combination | None) -> str:
     if kind is None:
         return ""
     condition, race, profile = kind
-    return ", meant to be " + (condition if condition == "healthy" else f"{condition} ({race} race, profile {profile})")
+    return ", meant to be " + (condition if condition == HEALTHY else f"{condition} ({race} race, profile {profile})")
 
 
 def _tally(redraws: list[Redraw]) -> str:

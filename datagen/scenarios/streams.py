@@ -45,15 +45,13 @@ RULE = (
 LARGEST_INDEX = 2**32 - 1
 
 
-def spawn_key(scope: str, index: int, purpose: str, attempt: int = 0, item: int = 0) -> tuple[int, ...]:
-    """The five numbers that set one stream of a recipe apart from all its others; ValueError if one is unknown."""
+def stream(seed: int, scope: str, index: int, purpose: str, attempt: int = 0, item: int = 0) -> np.random.Generator:
+    """A fresh generator at the start of the stream of one purpose of one record, machine (virtual bearing) or part.
+
+    ValueError if the scope or the purpose is unknown, or a number is not from 0 to 2³² − 1.
+    """
     for name, number in (("index", index), ("attempt", attempt), ("item", item)):
         if not 0 <= number <= LARGEST_INDEX:
             raise ValueError(f"{name} = {number}; allowed: 0 to {LARGEST_INDEX}")
-    return (SCOPES.index(scope), index, PURPOSES.index(purpose), attempt, item)
-
-
-def stream(seed: int, scope: str, index: int, purpose: str, attempt: int = 0, item: int = 0) -> np.random.Generator:
-    """A fresh generator at the start of the stream of one purpose of one record, machine (virtual bearing) or part."""
-    key = spawn_key(scope, index, purpose, attempt, item)
+    key = (SCOPES.index(scope), index, PURPOSES.index(purpose), attempt, item)
     return np.random.default_rng(np.random.SeedSequence(seed, spawn_key=key))

@@ -15,7 +15,7 @@ from datagen.sizing.comparison import score_record, unsized_row
 from datagen.sizing.estimators import find_estimator, is_fitted_to
 from datagen.sizing.flat_rows import flat_summary
 from datagen.sizing.in_blocks import in_blocks
-from datagen.sizing.known_sizes import KnownSize, factor_for, known_sizes, machine_of, with_effect
+from datagen.sizing.known_sizes import KnownSize, factor_for, known_sizes, machine_by_labels, with_effect
 from datagen.sizing.scored_record import ScoredRecord
 from datagen.sizing.size_request import SizeRequest
 from datagen.sizing.size_scores import SizeScores
@@ -110,8 +110,7 @@ def _score(sized: SizedRecord, estimator: str | None, factor: float) -> ScoredRe
 
 
 def _factor(sized: SizedRecord, known: list[KnownSize]) -> float:
-    machine = machine_of(str(sized.labels["bearing_id"]), str(sized.labels["rig"]))
-    return factor_for(known, sized.record, machine)
+    return factor_for(known, sized.record, machine_by_labels(sized.labels))
 
 
 def _split(folder: Path, asked: str | None) -> str:

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from datagen.sizing.bearing_intervals import mean_with_interval
-from datagen.sizing.record_errors import RULES, extent_error, lag_error, noise_level, noise_levels, noise_name, silent
+from datagen.sizing.record_errors import RULES, extent_error, lag_error, noise_level, noise_levels, noise_title, silent
 from datagen.sizing.scored_record import ScoredRecord
 from datagen.sizing.size_summary import Figure
 from labels.spall_size.size_estimate import Bounds
@@ -26,7 +26,7 @@ def figures_of(records: list[ScoredRecord], load_known: bool) -> list[Figure]:
     answered = [record for record in scorable if record.found]
     figures: list[Figure] = []
     for level in noise_levels(scorable):
-        name = noise_name(level) + ("" if level == math.inf else " dB")
+        name = noise_title(level)
         sized = [record for record in answered if noise_level(record) == level]
         asked = [record for record in scorable if noise_level(record) == level]
         figures.append(_figure(f"lag error, {name}", sized, lag_error, LAG_TARGETS.get(level)))

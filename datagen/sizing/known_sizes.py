@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -66,6 +67,11 @@ def machine_of(bearing_id: str, rig: str) -> str:
     return next((name for name in (bearing_id, rig) if name not in ("", UNKNOWN)), "")
 
 
+def machine_by_labels(labels: Mapping[str, Any]) -> str:
+    """`machine_of` the record with these labels."""
+    return machine_of(str(labels["bearing_id"]), str(labels["rig"]))
+
+
 def known_sizes(
     folder: Path, sizes: Mapping[int, float], records: Iterable[SizedRecord], estimator: AnyEstimator
 ) -> list[KnownSize]:
@@ -82,16 +88,17 @@ def _check(folder: Path, sizes: Mapping[int, float]) -> None:
     if not sizes:
         return
     table = read_index(folder)
-    rows = {int(row["record"]): row for row in table[table["record"].isin(sizes)].to_dict("records")}
+    chosen = table[table["record"].isin(sizes)].to_dict("records")
+    rows = {int(row["record"]): {str(name): value for name, value in row.items()} for row in chosen}
     for record in sizes:
         if record not in rows:
             allowed = f"{table['record'].min()} to {table['record'].max()}"
             raise BadInput(
                 "not in this corpus", file=str(folder), field=f"{FIELD}: record", value=record, allowed=allowed
             )
-        if reason := reason_against({str(name): value for name, value in rows[record].items()}):
+        if reason := reason_against(rows[record]):
             raise BadInput(f"it gets no estimate: {reason}", file=str(folder), field=f"{FIELD}: record", value=record)
-        if not machine_of(str(rows[record]["bearing_id"]), str(rows[record]["rig"])):
+        if not machine_by_labels(rows[record]):
             allowed = "a record whose bearing_id or rig is known"
             raise BadInput(
                 "its machine is not known", file=str(folder), field=f"{FIELD}: record", value=record, allowed=allowed
@@ -104,10 +111,8 @@ def _known_size(folder: Path, sized: SizedRecord, known_mm: float, estimator: An
         raise BadInput(
             f"it gets no estimate: {estimate.reason}", file=str(folder), field=f"{FIELD}: record", value=sized.record
         )
-    machine = machine_of(str(sized.labels["bearing_id"]), str(sized.labels["rig"]))
-    return KnownSize(
-        sized.record, machine, known_mm, estimate.extent_mm, known_size_factor(estimate.extent_mm, known_mm)
-    )
+    factor = known_size_factor(estimate.extent_mm, known_mm)
+    return KnownSize(sized.record, machine_by_labels(sized.labels), known_mm, estimate.extent_mm, factor)
 
 
 def shared_factors(known: list[KnownSize]) -> list[KnownSize]:

@@ -30,6 +30,11 @@ def noise_name(level: float) -> str:
     return "clean" if level == math.inf else f"{level:g}"
 
 
+def noise_title(level: float) -> str:
+    """ "clean" or the level with its unit, as in the names of figures."""
+    return noise_name(level) + ("" if level == math.inf else " dB")
+
+
 def lag_error(record: ScoredRecord) -> float:
     """|error| of the lag over its true value."""
     return abs(record.answer.lag - record.truth.lag) / record.truth.lag

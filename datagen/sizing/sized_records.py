@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from datagen.corpus_files.index import read_index
+from datagen.corpus_files.index import no_records, read_index
 from datagen.corpus_files.open_shards import OpenShards
 from datagen.errors import BadInput
 from datagen.sizing.stated_situation import reason_against, situation_of, speed_found, wrong_speed
@@ -82,7 +82,7 @@ def unsized_records(folder: Path, splits: tuple[str, ...] | None) -> list[Unsize
     """The records of a corpus that cannot be sized, in order; BadInput if all are like that, or there are none."""
     rows = [{str(key): value for key, value in row.items()} for row in _rows(folder, splits).to_dict("records")]
     if not rows:
-        raise BadInput("this corpus has no records", file=str(folder))
+        raise no_records(folder)
     reasons = [reason_against(labels) for labels in rows]
     if not all(reasons):
         return [UnsizedRecord(labels, reason) for labels, reason in zip(rows, reasons, strict=True) if reason]

@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from sklearn.base import BaseEstimator, ClassifierMixin, clone
+from sklearn.base import BaseEstimator, clone
 
 from labels.classifier.log_odds import logit, probability_of
 from physics.arrays import Array
 
 
-class Blend(ClassifierMixin, BaseEstimator):
+class Blend(BaseEstimator):
     """The mean of the log odds of its `parts`, each of which learns alone.
 
     Trees capture what no straight line can, but stay constant beyond the data they have seen; a logistic regression
@@ -34,7 +34,3 @@ class Blend(ClassifierMixin, BaseEstimator):
         level = np.mean([logit(part.predict_proba(X)[:, 1]) for part in self.fitted_], axis=0)
         second = probability_of(level)
         return np.column_stack([1.0 - second, second])
-
-    def predict(self, X: Array) -> NDArray[Any]:
-        """The likelier class (N,) of rows (N, F)."""
-        return np.asarray(self.classes_[self.predict_proba(X).argmax(axis=1)])

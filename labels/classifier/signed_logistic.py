@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from sklearn.base import BaseEstimator, ClassifierMixin
+from sklearn.base import BaseEstimator
 from sklearn.exceptions import ConvergenceWarning
 
 from labels.classifier.log_odds import probability_of
@@ -18,7 +18,7 @@ from physics.arrays import Array
 MOST_STEPS = 2000
 
 
-class SignedLogistic(ClassifierMixin, BaseEstimator):
+class SignedLogistic(BaseEstimator):
     """Two classes of equal weight, a quadratic penalty of strength 1 / C, and coefficients of the given `signs`.
 
     A sign of 1 keeps a feature's coefficient at 0 or above, −1 at 0 or below, 0 leaves it free (so does None for all).
@@ -58,7 +58,3 @@ class SignedLogistic(ClassifierMixin, BaseEstimator):
         """Probabilities (N, 2) of the two classes for rows (N, F)."""
         second = probability_of(np.asarray(X) @ self.coef_ + self.intercept_)
         return np.column_stack([1.0 - second, second])
-
-    def predict(self, X: Array) -> NDArray[Any]:
-        """The likelier class (N,) of rows (N, F)."""
-        return np.asarray(self.classes_[self.predict_proba(X).argmax(axis=1)])

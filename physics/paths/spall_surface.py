@@ -96,9 +96,7 @@ def turning_points(depth: Array) -> int:
 def reaches_floor(spall: Spall, arcs: Array, gap: Array) -> bool:
     """Whether the `gap` (N,), m, below the ball closes on the floor: between the tapers, or deep in a table."""
     if spall.profile == "table":
-        depth = max(spall.table_depth)
-        floor = table_surface(spall)(arcs) >= 0.5 * depth
+        floor = table_surface(spall)(arcs) >= 0.5 * spall.floor_depth
     else:
-        depth = spall.depth
         floor = window(spall, arcs) >= 1.0 - TOUCHING_SHARE
-    return bool(np.any(gap[floor] <= TOUCHING_SHARE * max(depth, 1e-12)))
+    return bool(np.any(gap[floor] <= TOUCHING_SHARE * max(spall.floor_depth, 1e-12)))

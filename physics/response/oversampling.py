@@ -23,10 +23,10 @@ HELD_PERIODS = 0.5
 MOST_OVERSAMPLING = round(16.0 * SAMPLES_WHERE_RAISED)
 
 
-def needed_multiple(scene: Scene, rate: float, fastest_path: float = 0.0) -> int:
+def needed_multiple(scene: Scene, rate: float, fastest_path: float) -> int:
     """Which multiple of `rate` (Hz) holds the fastest linear mode of `scene` with room for the filter.
 
-    And, if there is one, the `fastest_path` (Hz) that the outer ring shakes.
+    And the `fastest_path` (Hz) that the outer ring shakes, if there is one (above 0).
     """
     periods = fast_periods(motion_model(scene), 1.0 / rate)
     factor, raised = (math.ceil(periods * samples) for samples in (SAMPLES_PER_FAST_PERIOD, SAMPLES_WHERE_RAISED))

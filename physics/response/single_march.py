@@ -41,7 +41,7 @@ def respond(scene: Scene, start: Array, grid: Grid, method: str, keep: Kept = AC
     return trace_of(scene, grid, output, method)
 
 
-def respond_by_reference(scene: Scene, start: Array, rate: float, samples: int, *, keep_state: bool = False) -> Trace:
+def respond_by_reference(scene: Scene, start: Array, rate: float, samples: int, *, keep_state: bool) -> Trace:
     """Trace of `scene` by the slow reference method, at the instants k / rate, from the state `start` (12,)."""
     from physics.integrators.reference.integrate import integrate_reference
 

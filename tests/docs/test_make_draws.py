@@ -5,6 +5,7 @@ from pathlib import Path
 import make_draws
 import make_transfer
 import pytest
+import transfer_page
 
 from datagen.errors import BadInput
 
@@ -21,4 +22,4 @@ def test_two_reports_in_folders_of_one_name_are_refused(tmp_path):
 
 
 def test_folders_of_different_names_are_fine():
-    make_draws.require_different_names([Path("a/corpus"), Path("a/other")])
+    transfer_page.require_different_names([Path("a/corpus"), Path("a/other")])

@@ -3,7 +3,8 @@
 from pathlib import Path
 
 import pytest
-from make_transfer import calibration, main
+from make_transfer import main
+from transfer_page import calibration
 
 from datagen.errors import BadInput
 from labels.classifier.scores import FEWEST_A_SIDE

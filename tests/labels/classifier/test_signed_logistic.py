@@ -26,7 +26,6 @@ def test_without_signs_it_is_the_usual_regression(table):
     # Two minimisers of one convex function; they stop at gradients of 1e-5 of its curvature.
     np.testing.assert_allclose(own.coef_, usual.coef_[0], atol=1e-3)
     np.testing.assert_allclose(own.predict_proba(rows), usual.predict_proba(rows), atol=1e-3)
-    assert own.predict(rows).tolist() == usual.predict(rows).tolist()
 
 
 def test_a_coefficient_keeps_its_sign_and_others_are_free(table):

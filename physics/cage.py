@@ -24,7 +24,7 @@ from physics.crossing import crossing_times
 
 KNOTS_PER_CORRELATION_TIME = 4
 MOST_KNOTS = 10_000_000  # about two gigabytes and half a minute of work
-LARGEST_SLIP = 0.5
+LARGEST_MEAN_SLIP, LARGEST_SLIP = 0.2, 0.5
 INTERPOLATION_RULE = (
     "slip s(t) is the natural cubic spline through the knots (scipy.interpolate.CubicSpline(t, s, bc_type='natural')); "
     "cage speed = nominal_speed * (1 - mean_slip + s(t)); cage angle = phi_c0 + integral of the cage speed from t = 0"
@@ -53,7 +53,7 @@ class CagePath:
         require_positive("nominal_speed", self.nominal_speed, "rad/s")
         require_positive("duration", self.duration, "s")
         require_angle("start_angle", self.start_angle)
-        require_between("mean_slip", self.mean_slip, -0.2, 0.2)
+        require_between("mean_slip", self.mean_slip, -LARGEST_MEAN_SLIP, LARGEST_MEAN_SLIP)
         if self.knot_values:
             self._check_knots()
 

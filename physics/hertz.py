@@ -10,6 +10,7 @@ from scipy.special import ellipe, ellipkm1
 
 from physics.bearing import (
     DEFAULT_CONFORMITY,
+    LARGEST_CONFORMITY,
     LARGEST_CONTACT_ANGLE,
     RACES,
     SMALLEST_CONFORMITY,
@@ -116,7 +117,7 @@ def race_contact(
     problem = f"ball_diameter = {ball_diameter!r} m; it must be below the pitch diameter of {pitch_diameter!r} m"
     require(ball_diameter < pitch_diameter, problem, "ball_diameter")
     require_between("contact_angle", contact_angle, 0.0, LARGEST_CONTACT_ANGLE, "rad")
-    require_between("conformity", conformity, SMALLEST_CONFORMITY, 1e3)
+    require_between("conformity", conformity, SMALLEST_CONFORMITY, LARGEST_CONFORMITY)
     towards = math.cos(contact_angle)
     race_radius = raceway_radius(race, pitch_diameter, ball_diameter, contact_angle)
     bend = (-1.0 if race == "outer" else 1.0) * towards / race_radius

@@ -16,6 +16,7 @@ from physics.checks import (
 
 # m, far beyond a race that is still one.
 HIGHEST_WAVE = 1e-2
+HIGHEST_ORDER = 2000
 
 
 @dataclass(frozen=True)
@@ -34,7 +35,7 @@ class Waviness:
 
     def __post_init__(self) -> None:
         require_one_of("race", self.race, RACES)
-        require_count("order", self.order, 1, 2000)
+        require_count("order", self.order, 1, HIGHEST_ORDER)
         require_up_to("amplitude", self.amplitude, HIGHEST_WAVE, "m", f"amplitude of order {self.order}")
         require_angle("phase", self.phase)
 

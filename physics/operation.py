@@ -8,6 +8,7 @@ from physics.checks import require_angle, require_between, require_not_negative,
 
 # N, far beyond all bearings.
 HEAVIEST_LOAD = 1e7
+LARGEST_FLUCTUATION = 10.0
 
 
 @dataclass(frozen=True)
@@ -31,7 +32,7 @@ class Operation:
         require_between("load", self.load, -HEAVIEST_LOAD, HEAVIEST_LOAD, "N")
         require_not_negative("unbalance_force", self.unbalance_force, "N")
         require_angle("unbalance_phase", self.unbalance_phase)
-        require_between("load_fluctuation", self.load_fluctuation, 0.0, 10.0)
+        require_between("load_fluctuation", self.load_fluctuation, 0.0, LARGEST_FLUCTUATION)
         require_angle("fluctuation_phase", self.fluctuation_phase)
 
     @property

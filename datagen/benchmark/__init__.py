@@ -2,7 +2,7 @@
 
 - `options`: what was asked for; `request`: checks it and makes a `plan` of it
 - `classify`: the run from training to report, in two halves, `run_learning` and `run_scoring`
-- `fitness`: whether a record can be judged
+- `fitness`: whether a record can be judged; `truth`: what it really is, for training and scoring
 - `rows`: the table that is learned from; `reading_policy`, `record_rows`, `corpus_rows`: how records become rows of
   features; `feature_table`: these rows for people; `windows`: raw pieces for users' own estimators
 - `training_source`: what can be learned from: a corpus, `kept_rows`, which come with the program, or impulse trains

@@ -14,11 +14,11 @@ from datagen.benchmark.options import Learning
 from datagen.benchmark.plan import reading_of, training_reading_of
 from datagen.benchmark.record_rows import RecordFacts, RecordRows, Row
 from datagen.benchmark.request import require_bandwidth
+from datagen.benchmark.truth import true_classes
 from datagen.corpus import Corpus
 from datagen.corpus_files.index import no_records
 from datagen.errors import BadInput
 from datagen.judging.splits import ALL, require_split
-from datagen.judging.truth import true_classes
 from datagen.progress import SILENT, Listener
 from labels.features.table import FEATURE_NAMES
 from physics.angular_speed import RPM_PER_HZ

@@ -14,10 +14,10 @@ from datagen.benchmark.corpus_rows import read_rows
 from datagen.benchmark.options import FIRST, TRAIN, Learning
 from datagen.benchmark.reading_policy import Reading
 from datagen.benchmark.rows import Rows
+from datagen.benchmark.truth import true_classes
 from datagen.corpus import Corpus
 from datagen.errors import BadInput
 from datagen.judging.splits import TEST
-from datagen.judging.truth import true_classes
 from datagen.judging.user_code import user_code
 from datagen.progress import Count, Say, ignore
 from labels.classifier.alarm import Alarm

@@ -14,7 +14,7 @@ from datagen.benchmark.corpus_rows import CorpusRows
 from datagen.benchmark.record_rows import RecordFacts
 from datagen.benchmark.rows import Rows
 from datagen.benchmark.training import Model
-from datagen.judging.truth import true_classes, true_locations
+from datagen.benchmark.truth import true_classes, true_locations
 from labels.classifier.classes import CLASSES, called, location_probability
 from labels.classifier.log_odds import logit, probability_of
 from labels.classifier.rule import Rule, line_heights

@@ -13,12 +13,13 @@ from datagen.settings.table import Between, Table, Whole, at_most_one, refuse, r
 from physics.backgrounds.gear_mesh import MOST_SIDEBANDS, MOST_TEETH
 from physics.backgrounds.impulses import LARGEST_SPREAD, MOST_PER_SECOND
 from physics.backgrounds.pink import STEEPEST
+from physics.backgrounds.shaft_harmonics import HIGHEST_ORDER
 from physics.checks import HIGHEST_DAMPING
 
 # Up to a hundred thousand times gravity: more than any accelerometer takes. Far more would not fit what is stored.
 Acceleration = Annotated[Distribution, Between(0.0, 1e6)]
 Decay = Annotated[Distribution, Between(-4.0, 8.0)]
-Order = Annotated[int, Field(ge=1, le=1000)]
+Order = Annotated[int, Field(ge=1, le=HIGHEST_ORDER)]
 Lines = Annotated[int, Field(ge=1, le=200)]
 
 

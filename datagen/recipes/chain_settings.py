@@ -11,6 +11,7 @@ from datagen.recipes.quantities import Frequency
 from datagen.settings.table import Between, Table, Whole
 from physics.checks import HIGHEST_DAMPING
 from physics.sensor.mounting import HIGHEST_ORDER
+from physics.sensor.recorder import FEWEST_BITS, MOST_BITS
 
 MOST_MODES = 50
 Gain = Annotated[Distribution, Between(0.0, 1e6)]
@@ -41,7 +42,7 @@ class ChainSettings(Table):
     """Order of the mounting's Butterworth low-pass; no effect without mounting_cutoff_hz."""
     recorder_range_m_s2: Annotated[Distribution, Between(1e-6, 1e9)] | None = None
     """Largest acceleration that the recorder holds, m/s²; no rounding and no clipping if not given."""
-    recorder_bits: Annotated[Distribution, Whole(2, 32)] = Fixed(16)
+    recorder_bits: Annotated[Distribution, Whole(FEWEST_BITS, MOST_BITS)] = Fixed(16)
     """Bits of the recorder over its range on both sides of zero; no effect without recorder_range_m_s2."""
     modes: tuple[ModeSettings, ...] = Field(default=(), strict=False)
     """Resonances driven by the outer ring, added to the resonator's acceleration."""

@@ -11,12 +11,12 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, Field, WithJsonSchema, model_validator
 
 from datagen.distributions.kinds import Distribution, Fixed
-from datagen.recipes.profile_table import ProfileTable
+from datagen.recipes.profile_table import DEEPEST_UM, ProfileTable
 from datagen.recipes.quantities import EXTENTS_MM, Degrees, Share
 from datagen.settings.table import Between, OneOf, Table, Whole, at_most_one, possible_words, refuse
 from labels.schema import CONDITIONS, HEALTHY
 from physics.bearing import RACES
-from physics.spall import ARC_ROUNDING, EXTENDED_FROM
+from physics.spall import ARC_ROUNDING, EXTENDED_FROM, PROFILES
 
 EXTENTS = ("extent_deg", "extent_mm", "extent_spacing")
 ENTRY_TAPERS = ("entry_taper_deg", "entry_taper_share")
@@ -29,7 +29,7 @@ KIND = ("condition", "race", "profile")  # what a combination is of
 PlaceOf = Callable[[str], str]
 FILE_SCHEMA = {"type": "string"}
 IN_THE_LOAD_ZONE = Fixed(270.0)
-DEPTHS_UM = Between(0.0, 1e4)
+DEPTHS_UM = Between(0.0, DEEPEST_UM)
 
 
 class SpallSettings(Table):
@@ -86,7 +86,7 @@ class DefectSettings(SpallSettings):
     """healthy, line (shorter than the ball spacing) or extended (at least the ball spacing)."""
     race: Annotated[Distribution, OneOf(RACES)] = Fixed("outer")
     """The defective race."""
-    profile: Annotated[Distribution, OneOf(("tukey", "ball_path", "table"))] = Fixed("tukey")
+    profile: Annotated[Distribution, OneOf(PROFILES)] = Fixed("tukey")
     """How the path of the ball's centre follows from the settings."""
     drawn_for: Literal["record", "machine"] = "record"
     """record: each record draws its own spalls; machine: all records of a virtual machine have the same ones."""

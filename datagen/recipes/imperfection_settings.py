@@ -10,9 +10,10 @@ from datagen.distributions.kinds import Distribution, Fixed, Uniform
 from datagen.recipes.quantities import Degrees
 from datagen.settings.table import Between, OneOf, Table, rising
 from physics.bearing import RACES
+from physics.imperfections import HIGHEST_ORDER
 
 Scale = Annotated[Distribution, Between(0.0, 1e3)]
-Order = Annotated[int, Field(ge=1, le=2000)]
+Order = Annotated[int, Field(ge=1, le=HIGHEST_ORDER)]
 
 
 class WavinessSettings(Table):

@@ -10,7 +10,15 @@ from datagen.distributions.kinds import Distribution, Fixed
 from datagen.recipes.operation_settings import FASTEST_RPM, SLOWEST_RPM
 from datagen.recipes.quantities import Degrees, Frequency
 from datagen.settings.table import Between, OneOf, Table, Whole, at_most_one, possible_words, refuse
-from physics.bearing import SMALLEST_CONFORMITY
+from physics.bearing import (
+    FEWEST_BALLS,
+    LARGEST_CONFORMITY,
+    LARGEST_CONTACT_ANGLE_DEG,
+    LARGEST_EXPONENT,
+    MOST_BALLS,
+    SMALLEST_CONFORMITY,
+    SMALLEST_EXPONENT,
+)
 from physics.catalog import BEARINGS, RIGS
 from physics.operation import HEAVIEST_LOAD
 
@@ -23,7 +31,7 @@ DiameterMm = Annotated[Distribution, Between(0.1, 1e5)]
 Mass = Annotated[Distribution, Between(1e-6, 1e7)]
 Factor = Annotated[Distribution, Between(1e-6, 1e6)]
 NotNegativeFactor = Annotated[Distribution, Between(0.0, 1e6)]
-Conformity = Annotated[Distribution, Between(SMALLEST_CONFORMITY, 1e3)]
+Conformity = Annotated[Distribution, Between(SMALLEST_CONFORMITY, LARGEST_CONFORMITY)]
 DampingRatio = Annotated[Distribution, Between(0.0, 2.0)]
 # Of each group at most one may be given, and a drawn bearing or rig needs one.
 BEARING_GROUPS = (
@@ -90,7 +98,7 @@ class MachineSettings(Table):
     """Name of a rig in the catalogue, or "drawn"."""
     bearing: Annotated[Distribution, OneOf((*BEARINGS, DRAWN))] | None = None
     """Name of another bearing of the catalogue to mount in the rig, or "drawn"."""
-    balls: Annotated[Distribution, Whole(3, 200)] | None = None
+    balls: Annotated[Distribution, Whole(FEWEST_BALLS, MOST_BALLS)] | None = None
     """Rolling elements in each row."""
     rows: Annotated[Distribution, Whole(1, 2)] | None = None
     """Rows of rolling elements."""
@@ -98,14 +106,14 @@ class MachineSettings(Table):
     """Diameter of the circle through the balls' centres, mm."""
     ball_diameter_mm: DiameterMm | None = None
     """Diameter of a rolling element, mm."""
-    contact_angle_deg: Annotated[Distribution, Between(0.0, 60.0)] | None = None
+    contact_angle_deg: Annotated[Distribution, Between(0.0, LARGEST_CONTACT_ANGLE_DEG)] | None = None
     """Contact angle, degrees."""
     row_offset_deg: Degrees | None = None
     """Angle by which row 2 is ahead of row 1, degrees; half a ball spacing if not given."""
     load_deflection_n_per_m_to_n: LoadDeflection | None = None
     """Factor K of F = K δⁿ for one rolling element between both races, N/mⁿ; if not given, the catalogue's, scaled as
     Hertz's factor of the geometry, or Hertz's own for a drawn bearing."""
-    exponent: Annotated[Distribution, Between(1.0, 2.0)] | None = None
+    exponent: Annotated[Distribution, Between(SMALLEST_EXPONENT, LARGEST_EXPONENT)] | None = None
     """Exponent n of the load-deflection law: 1.5 for balls, 1.1111 for rollers."""
     clearance_um: Annotated[Distribution, Between(-1000.0, 1000.0)] | None = None
     """Radial clearance (half the diametral play), µm; negative: preload."""

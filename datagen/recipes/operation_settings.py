@@ -9,7 +9,8 @@ from pydantic import model_validator
 from datagen.distributions.kinds import Distribution, Fixed, Uniform
 from datagen.recipes.quantities import Degrees
 from datagen.settings.table import Between, Table, at_most_one
-from physics.operation import HEAVIEST_LOAD
+from physics.cage import LARGEST_MEAN_SLIP
+from physics.operation import HEAVIEST_LOAD, LARGEST_FLUCTUATION
 
 # Below it a record holds nothing but rest; above it no bearing survives.
 SLOWEST_RPM, FASTEST_RPM = 1e-3, 1e6
@@ -32,7 +33,7 @@ class OperationSettings(Table):
     """Angle of ball 1 of row 1 at the start, degrees; anywhere if not given."""
     second_cage_angle_deg: Degrees = ANY_ANGLE
     """The same of row 2, before its stagger, where the rows have separate cages, degrees."""
-    mean_slip: Annotated[Distribution, Between(-0.2, 0.2)] = Fixed(0.0)
+    mean_slip: Annotated[Distribution, Between(-LARGEST_MEAN_SLIP, LARGEST_MEAN_SLIP)] = Fixed(0.0)
     """Mean slip of the cage, as a share of its speed."""
     slip_deviation: Annotated[Distribution, Between(0.0, MOST_SLIP_DEVIATION)] = Fixed(0.01)
     """Standard deviation of the cage's slip, as a share of its speed."""
@@ -44,7 +45,7 @@ class OperationSettings(Table):
     """Balance quality grade G of ISO 21940, mm/s: the load is G times mass of inner ring and shaft times speed."""
     unbalance_phase_deg: Degrees = ANY_ANGLE
     """Its angle at the start, degrees; anywhere if not given."""
-    load_fluctuation: Annotated[Distribution, Between(0.0, 10.0)] = Fixed(0.0)
+    load_fluctuation: Annotated[Distribution, Between(0.0, LARGEST_FLUCTUATION)] = Fixed(0.0)
     """Amplitude of a fluctuation of the static load once a turn, as a share of it."""
     fluctuation_phase_deg: Degrees = ANY_ANGLE
     """Its phase at the start, degrees; anywhere if not given."""

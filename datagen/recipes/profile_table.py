@@ -12,10 +12,11 @@ from datagen.errors import BadInput
 from datagen.files.csv_rows import read_csv_rows
 from datagen.files.number_texts import number
 from datagen.settings.table import Table, refuse
+from physics.spall import DEEPEST
 
 COLUMNS = ("angle_deg", "depth_um")
 FOLDER = "folder"
-DEEPEST_UM = 1e4
+DEEPEST_UM = DEEPEST * 1e6
 
 
 class ProfileTable(Table):

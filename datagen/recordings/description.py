@@ -7,11 +7,11 @@ from collections.abc import Callable
 from typing import Any
 
 from datagen.errors import BadInput
-from datagen.recordings.settings import MOST_BALLS, BearingNumbers
+from datagen.recordings.settings import BearingNumbers
 from datagen.recordings.source import Source
 from labels.description import NO_SPALL, spall_condition
 from labels.schema import HEALTHY, LABELS, MEASURED, UNKNOWN, Label
-from physics.bearing import RACES, Bearing
+from physics.bearing import MOST_BALLS, RACES, Bearing
 from physics.catalog import bearing as catalogue_bearing
 from physics.checks import InvalidParameter
 from physics.hertz import BALL_EXPONENT

@@ -71,17 +71,21 @@ def mended(times: Array, pulses_per_rev: float) -> tuple[Array, int]:
 def _steps(times: Array) -> NDArray[np.int64]:
     """How many pulses on (N - 1,) each of those at `times` (N,) the next one is: 1, or more where some are missing."""
     interval = np.diff(times)
-    ratio = interval / median_filter(interval, NEIGHBOURS, mode="mirror")
+    ratio = interval / _usual(interval)
     steps = np.maximum(np.round(ratio), 1.0).astype(np.int64)
     steps[(np.abs(ratio - steps) > NEAR_WHOLE) & (ratio < LONG)] = 1
     return steps
 
 
+def _usual(interval: Array) -> Array:
+    """The usual one of the intervals (N,) about each."""
+    return np.asarray(median_filter(interval, NEIGHBOURS, mode="mirror"))
+
+
 def _odd(times: Array) -> NDArray[np.int64]:
     """Numbers of the pulses, at `times` (N,), behind which the interval is not the usual one."""
     interval = np.diff(times)
-    usual = median_filter(interval, NEIGHBOURS, mode="mirror")
-    return np.flatnonzero(np.abs(interval / usual - 1.0) > NEAR_WHOLE)
+    return np.flatnonzero(np.abs(interval / _usual(interval) - 1.0) > NEAR_WHOLE)
 
 
 def _come_again(numbers: NDArray[np.int64], pulses_per_rev: float) -> bool:
@@ -93,8 +97,7 @@ def _come_again(numbers: NDArray[np.int64], pulses_per_rev: float) -> bool:
 
 def _without_doubles(times: Array) -> Array:
     interval = np.diff(times)
-    usual = median_filter(interval, NEIGHBOURS, mode="mirror")[:-1]
-    off = np.abs((interval[:-1] + interval[1:]) / usual - 1.0)
+    off = np.abs((interval[:-1] + interval[1:]) / _usual(interval)[:-1] - 1.0)
     off = np.pad(np.where(off < NEAR_WHOLE, off, np.inf), 1, constant_values=np.inf)
     # Beside a pulse too many its neighbour may seem one too, but what it leaves is less like the other intervals.
     double = (off[1:-1] < off[:-2]) & (off[1:-1] <= off[2:]) & np.isfinite(off[1:-1])

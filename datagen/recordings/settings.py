@@ -11,6 +11,7 @@ from datagen.formats.reading import FORMATS
 from datagen.recordings.values import RANGES, FromVariable, finite_notes, number, word
 from datagen.settings.table import Table, at_most_one, refuse
 from labels.schema import CONDITIONS, LABEL, LOCATIONS, SPLITS, UNKNOWN
+from physics.bearing import FEWEST_BALLS, LARGEST_CONTACT_ANGLE_DEG, LARGEST_EXPONENT, MOST_BALLS, SMALLEST_EXPONENT
 
 UNITS = {"m/s2": 1.0, "g": 9.80665}
 # Units that a scale makes of these.
@@ -21,7 +22,6 @@ Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
 LONGEST_S = 1e9
 # mm; the balls of bearings are not smaller, and a number below this is a length in m.
 Diameter = Annotated[float, Field(ge=0.1, le=1e5)]
-MOST_BALLS = 200
 VOLTS = 'volts of a sensor need a scale: unit = "g" and scale = 10 for 100 mV/g, 0.01 for mV'
 IN_WORDS = "none means healthy, unknown that nobody said"
 FOLLOWS = "it follows from location and extent and can be left out: location says what is damaged"
@@ -88,7 +88,7 @@ class BearingNumbers(Table):
 
     name: Name = UNKNOWN
     """Designation."""
-    balls: Annotated[int, Field(ge=3, le=MOST_BALLS)]
+    balls: Annotated[int, Field(ge=FEWEST_BALLS, le=MOST_BALLS)]
     """Rolling elements in one row."""
     rows: Annotated[int, Field(ge=1, le=2)] = 1
     """Rows of rolling elements."""
@@ -96,11 +96,11 @@ class BearingNumbers(Table):
     """Diameter of the circle through the balls' centres, mm."""
     ball_diameter_mm: Diameter
     """Diameter of a rolling element, mm."""
-    contact_angle_deg: Annotated[float, Field(ge=0.0, le=60.0)] = 0.0
+    contact_angle_deg: Annotated[float, Field(ge=0.0, le=LARGEST_CONTACT_ANGLE_DEG)] = 0.0
     """Contact angle, degrees."""
     load_deflection_n_per_m_to_n: Positive | None = None
     """K of F = K δⁿ for one rolling element between both races, which tells sizes better where the load is known."""
-    exponent: Annotated[float, Field(ge=1.0, le=2.0)] | None = None
+    exponent: Annotated[float, Field(ge=SMALLEST_EXPONENT, le=LARGEST_EXPONENT)] | None = None
     """n of that law, 10/9 for rollers; 3/2, that of balls, if not given."""
 
 

@@ -10,9 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from labels.spall_size.estimation.trees import Trees
-from physics.arrays import Array
-
-Places = NDArray[np.int64]
+from physics.arrays import Array, Index
 
 FOLDS = 3
 
@@ -46,7 +44,7 @@ class Committee:
         return predicted
 
 
-def folds(groups: NDArray[np.str_]) -> Iterator[tuple[Places, Places]]:
+def folds(groups: NDArray[np.str_]) -> Iterator[tuple[Index, Index]]:
     """FOLDS times the places of the rows to fit to, and of the others, in which all of some `groups` (N,) are."""
     from sklearn.model_selection import GroupKFold
 

@@ -173,7 +173,12 @@ def _quality(evidence: Evidence, truth: EventTruth, lag: float) -> Array:
 
 
 def _apart(distance: Array, period: float) -> Array:
-    return np.abs((distance + 0.5 * period) % period - 0.5 * period)
+    return np.abs(_nearest(distance, period))
+
+
+def _nearest(distance: Array, period: float) -> Array:
+    """The distances (N,) less the whole periods in them, from half a period below 0 to half a period above."""
+    return (distance + 0.5 * period) % period - 0.5 * period
 
 
 def mean_place(evidence: Evidence, times: Array) -> float:
@@ -183,5 +188,5 @@ def mean_place(evidence: Evidence, times: Array) -> float:
     distance, weight = times * evidence.rate - anchor[nearest], evidence.alignment.weight[nearest]
     turn = 2.0 * math.pi / period
     middle = float(np.angle((weight * np.exp(1j * turn * distance)).sum())) / turn
-    unwrapped = (distance - middle + 0.5 * period) % period - 0.5 * period
+    unwrapped = _nearest(distance - middle, period)
     return middle + float(np.median(unwrapped[weight >= np.median(weight)]))

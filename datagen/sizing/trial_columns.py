@@ -9,9 +9,7 @@ from numpy.typing import NDArray
 
 from datagen.sizing.scored_record import NO_EVENT_SAMPLES, lacks_event
 from datagen.sizing.training_rows import Trial
-from physics.arrays import Array
-
-Mask = NDArray[np.bool_]
+from physics.arrays import Array, Flags
 
 SURE_LAG = 3.0  # samples
 
@@ -22,17 +20,17 @@ class TrialColumns:
     mixture of spalls the intervals are to hold."""
 
     bearing: NDArray[np.str_]
-    stored: Mask
-    clean: Mask
-    asked: Mask
-    typical: Mask
+    stored: Flags
+    clean: Flags
+    asked: Flags
+    typical: Flags
     true_lag: Array
     lag: Array
     arc: Array
     period: Array
 
     @classmethod
-    def of(cls, made: list[Trial], typical: Mask) -> TrialColumns:
+    def of(cls, made: list[Trial], typical: Flags) -> TrialColumns:
         """The columns of the trials `made` (N,), of which these are `typical` (N,)."""
         return cls(
             bearing=np.array([trial.bearing_id for trial in made]),
@@ -47,26 +45,26 @@ class TrialColumns:
         )
 
     @property
-    def eventless(self) -> Mask:
+    def eventless(self) -> Flags:
         """As stored, and no size may be given: no event, or a lag below two samples."""
         return self.stored & lacks_event(self.true_lag)
 
     @property
-    def decided(self) -> Mask:
+    def decided(self) -> Flags:
         """Whether there are events is beyond doubt: none, or a lag that is not between two samples and three."""
         return ~((self.true_lag >= NO_EVENT_SAMPLES) & (self.true_lag < SURE_LAG))
 
     @property
-    def as_stored(self) -> Mask:
+    def as_stored(self) -> Flags:
         """Typical ones as stored."""
         return self.typical & self.stored
 
     @property
-    def asked_as_stored(self) -> Mask:
+    def asked_as_stored(self) -> Flags:
         """Typical ones as stored of which a size must be given."""
         return self.typical & self.asked & self.stored
 
     @property
-    def asked_clean(self) -> Mask:
+    def asked_clean(self) -> Flags:
         """Typical ones, whole and without noise, of which a size must be given."""
         return self.typical & self.asked & self.clean

@@ -11,6 +11,8 @@ from physics.arrays import Array
 from physics.backgrounds.tones import draw_phases, tones
 from physics.checks import require_count, require_not_negative, settle_tuples
 
+HIGHEST_ORDER = 1000
+
 
 @dataclass(frozen=True)
 class ShaftHarmonics:
@@ -24,7 +26,7 @@ class ShaftHarmonics:
 
     def __post_init__(self) -> None:
         settle_tuples(self, "amplitudes")
-        require_count("first_order", self.first_order, 1, 1000, what="first order")
+        require_count("first_order", self.first_order, 1, HIGHEST_ORDER, what="first order")
         for amplitude in self.amplitudes:
             require_not_negative("amplitudes", amplitude, "m/s²", what="shaft harmonic amplitude")
 

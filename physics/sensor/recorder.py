@@ -9,6 +9,8 @@ import numpy as np
 from physics.arrays import Array
 from physics.checks import require_count, require_positive
 
+FEWEST_BITS, MOST_BITS = 2, 32
+
 
 @dataclass(frozen=True)
 class Recorder:
@@ -22,7 +24,7 @@ class Recorder:
 
     def __post_init__(self) -> None:
         require_positive("full_scale", self.full_scale, "m/s²", what="recorder range")
-        require_count("bits", self.bits, 2, 32, what="recorder bits")
+        require_count("bits", self.bits, FEWEST_BITS, MOST_BITS, what="recorder bits")
 
     @property
     def step(self) -> float:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pandas
 import pytest
 
-from datagen.judging.truth import true_class, true_classes, true_location, true_locations
+from datagen.benchmark.truth import true_class, true_classes, true_location, true_locations
 
 
 @pytest.mark.parametrize(

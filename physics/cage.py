@@ -20,7 +20,6 @@ from physics.checks import (
     require_positive,
     settle_tuples,
 )
-from physics.crossing import crossing_times
 
 KNOTS_PER_CORRELATION_TIME = 4
 MOST_KNOTS = 10_000_000  # about two gigabytes and half a minute of work
@@ -119,10 +118,6 @@ class CagePath:
     def speed(self, time: Array) -> Array:
         """Cage speed at `time` (T,), rad/s."""
         return np.asarray(self.polynomial.derivative()(time))
-
-    def crossing_times(self, target: Array) -> Array:
-        """Times (N,) at which the cage angle equals each `target` angle (N,), s; beyond the ends at the mean speed."""
-        return crossing_times(self.polynomial, self.mean_speed, self.duration, np.asarray(target, dtype=float))
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,7 @@ import pytest
 from labels.envelope import band_envelope, default_band, squared_envelope_spectrum
 from labels.spectrum import amplitude_spectrum, line_amplitude
 from labels.truth import ball_passes
+from physics.crossing import crossing_times
 
 RATE = 65536.0
 DURATION, ANALYSED = 1.5, 1.4
@@ -116,7 +117,8 @@ def test_halving_the_step_moves_neither_scatter_nor_mean_of_the_time_between_bal
         regain = ball_passes(scene, trace.changes, DURATION).regain_time
         periods.append(np.diff(regain[np.isfinite(regain)]))
     assert periods[0] == pytest.approx(periods[1], abs=1e-9)  # s: contact is regained on the same path of the cage
-    on_the_path = np.diff(scene.cage.crossing_times(scene.rig.bearing.spacing * np.arange(1, periods[0].size + 2)))
+    cage, places = scene.cage, scene.rig.bearing.spacing * np.arange(1, periods[0].size + 2)
+    on_the_path = np.diff(crossing_times(cage.polynomial, cage.mean_speed, cage.duration, places))
     assert np.std(on_the_path) > 0.004 * np.mean(on_the_path)
     # Balls are regained at a place that moves by a hundredth of a pass, not where the path's periods are counted.
     assert np.std(periods[0]) == pytest.approx(np.std(on_the_path), rel=0.1)

@@ -14,6 +14,8 @@ from physics.modes import Modes
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+NUMBER_HEIGHT = 0.08  # of the panel's height
+
 
 def draw_decibels(axes: Axes, time: Array, frequency: Array, power: Array, *, span: float, top: float = np.inf) -> None:
     """The `power` (F, T) at times (T,), s, and frequencies (F,), Hz, over the `span` (dB) below its maximum: kHz by ms.
@@ -29,13 +31,18 @@ def draw_decibels(axes: Axes, time: Array, frequency: Array, power: Array, *, sp
 
 
 def mark_frequencies(axes: Axes, frequencies: Iterable[float]) -> None:
-    """Dashed white lines at the frequencies (Hz) across a panel in kHz, their numbers behind its right end."""
-    for line in frequencies:
+    """Dashed white lines at the frequencies (Hz) across a panel in kHz, their numbers behind its right end, one above
+    the other where they are close. The panel's limits must be set."""
+    low, high = axes.get_ylim()
+    free = low
+    for line in sorted(frequencies):
         axes.axhline(line * 1e-3, color="white", linewidth=0.8, linestyle=(0, (4, 3)), alpha=0.85)
+        place = max(line * 1e-3, free)
         axes.annotate(
-            f"{line * 1e-3:.2f}", (1.0, line * 1e-3), xycoords=("axes fraction", "data"), xytext=(3, 0),
+            f"{line * 1e-3:.2f}", (1.0, place), xycoords=("axes fraction", "data"), xytext=(3, 0),
             textcoords="offset points", va="center", fontsize=7, color=INK,
         )  # fmt: skip
+        free = place + NUMBER_HEIGHT * (high - low)
 
 
 def frequencies_along_y(found: Modes) -> Array:

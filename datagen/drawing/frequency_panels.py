@@ -31,9 +31,10 @@ def draw_spectrum(axes: Axes, signal: Array, rate: float, band: tuple[float, flo
     axes.semilogy(frequency[1:] * 1e-3, above(amplitude[1:], limits), color=BLUE, linewidth=0.5)
     low, high = band
     axes.axvspan(low * 1e-3, high * 1e-3, color=ORANGE, alpha=0.3, linewidth=0, zorder=0)
-    left = high > 0.75 * rate / 2.0
+    left = high > 0.75 * rate / 2.0 and low > 0.25 * rate / 2.0
+    place = low if left else min(high, 0.75 * rate / 2.0)  # inside a band beside which there is no room
     axes.annotate(
-        f"envelope band\n{low * 1e-3:.2f} to {high * 1e-3:.2f} kHz", ((low if left else high) * 1e-3, 1.0),
+        f"envelope band\n{low * 1e-3:.2f} to {high * 1e-3:.2f} kHz", (place * 1e-3, 1.0),
         (-3 if left else 3, -2), xycoords=("data", "axes fraction"), textcoords="offset points", va="top",
         ha="right" if left else "left", fontsize=7.5, color=INK,
         bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.75, "pad": 0.5},

@@ -27,13 +27,15 @@ LOAD_DIRECTION = 1.5 * math.pi
 
 
 def draw_path(axes: Axes, portrait: Portrait) -> None:
-    """Drop of a ball's centre in µm against the arc from the spall's centre in degrees of travel, downwards."""
+    """Drop of an element's centre in µm against the arc from the spall's centre in degrees of travel, downwards."""
     scene = portrait.scene
     spall = portrait.shown_spall
     arc = shown_arcs(spall)
     faint_grid(axes)
     if spall is None:
         _draw_good_races(axes, scene, arc)
+        what = "waviness only" if scene.imperfections.waviness else "no defect"
+        axes.set_title(f"Path of a {portrait.element}'s centre: {what}")
         return
     bearing = scene.rig.bearing
     path = build_path(spall, bearing)
@@ -48,7 +50,7 @@ def draw_path(axes: Axes, portrait: Portrait) -> None:
     floor = ", bridged" if path.bridged else ""
     which = f"spall {scene.spalls.index(spall) + 1} of {len(scene.spalls)}," if len(scene.spalls) > 1 else "spall of"
     axes.set_title(
-        f"Path of a ball's centre: {which} {math.degrees(spall.extent):.3g}° = "
+        f"Path of a {portrait.element}'s centre: {which} {math.degrees(spall.extent):.3g}° = "
         f"{spall.length(bearing) * 1e3:.3g} mm, drop {path.largest_depth * 1e6:.3g} µm{floor}"
     )
 
@@ -65,20 +67,19 @@ def _draw_good_races(axes: Axes, scene: Scene, arc: Array) -> None:
         outside_legend(axes)
     else:
         axes.set_ylim(1.0, -1.0)
-    axes.set_title("Path of a ball's centre: " + ("waviness only" if waves else "no defect"))
 
 
-def draw_ball_load(axes: Axes, portrait: Portrait) -> None:
-    """Quasi-static load of the ball, N, over the same arc; where no pass is shown, over a full turn."""
+def draw_element_load(axes: Axes, portrait: Portrait) -> None:
+    """Quasi-static load of the ball or roller, N, over the same arc; where no pass is shown, over a full turn."""
     spall, k = portrait.shown_spall, portrait.shown_pass
     if spall is None or k is None:
         arc, load = load_around(portrait.scene)
-        axes.set_title("Quasi-static load of a ball on a full turn")
+        axes.set_title(f"Quasi-static load of a {portrait.element} on a full turn")
         axes.set_xlim(-180.0, 180.0)
         axes.set_xlabel("angle from the direction of the load (°)")
     else:
         arc, load = load_over_spall(portrait, spall, k)
-        axes.set_title(f"Quasi-static load of ball {portrait.passes.ball[k]} on its way over the spall")
+        axes.set_title(f"Quasi-static load of {portrait.element_of(k)} on its way over the spall")
         axes.set_xlabel("arc from the spall's centre in the direction of travel (°)")
         _mark_edges(axes, spall)
     axes.plot(np.degrees(arc), load, color=VERMILLION, linewidth=1.5)

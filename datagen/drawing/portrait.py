@@ -14,6 +14,7 @@ from labels.description import largest_spall
 from labels.truth import PassTable
 from physics.angular_speed import in_hertz
 from physics.arrays import Array
+from physics.hertz import is_roller
 from physics.scene import Scene
 from physics.spall import Spall
 
@@ -80,6 +81,16 @@ class Portrait:
     def defect_frequency(self) -> str:
         """Name of the frequency at which the record's defect shows; BPFO if it is healthy."""
         return "BPFI" if self.scene.defective_race == "inner" else "BPFO"
+
+    @property
+    def element(self) -> str:
+        """What a rolling element of the bearing is called."""
+        return "roller" if is_roller(self.scene.rig.bearing) else "ball"
+
+    def element_of(self, number: int) -> str:
+        """Name of the rolling element of the pass of this number, and of its row where there are two."""
+        row = f" of row {self.passes.row[number]}" if self.scene.rig.bearing.rows > 1 else ""
+        return f"{self.element} {self.passes.ball[number]}{row}"
 
     @cached_property
     def shown_pass(self) -> int | None:

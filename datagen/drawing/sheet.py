@@ -15,7 +15,7 @@ from datagen.drawing.frequency_panels import (
     draw_spectrum,
     envelope_band,
 )
-from datagen.drawing.path_panels import draw_ball_load, draw_path, shown_arcs
+from datagen.drawing.path_panels import draw_element_load, draw_path, shown_arcs
 from datagen.drawing.portrait import Portrait
 from datagen.drawing.style import BLUE, GREY, INK, VERMILLION, png_of
 from datagen.drawing.time_panels import (
@@ -62,7 +62,7 @@ def draw_sheet(portrait: Portrait) -> Figure:
     path = figure.add_subplot(place_rows[0])
     draw_path(path, portrait)
     path.tick_params(labelbottom=not alike)
-    draw_ball_load(figure.add_subplot(place_rows[1], sharex=path if alike else None), portrait)
+    draw_element_load(figure.add_subplot(place_rows[1], sharex=path if alike else None), portrait)
     path.set_xlim(*_ends(portrait))
     frequency_rows = right[1].subgridspec(2, 1, hspace=0.62)
     band = envelope_band(portrait)

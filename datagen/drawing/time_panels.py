@@ -51,7 +51,7 @@ def draw_close_up(axes: Axes, portrait: Portrait) -> None:
     _draw_signal(axes, portrait, portrait.window.part(portrait.time), 1e3)
     table = portrait.passes
     for times, colour, name in (
-        (table.release_time, VERMILLION, "release of a ball"),
+        (table.release_time, VERMILLION, f"release of a {portrait.element}"),
         (table.regain_time, GREEN, "regain of contact"),
     ):
         inside = times[(times >= portrait.window[0]) & (times <= portrait.window[1])]
@@ -87,7 +87,7 @@ def draw_passes(axes: Axes, portrait: Portrait) -> None:
         axes.barh(lane, leave - entry, left=entry, height=0.6, color=ORANGE if table.loaded[k] else PALE, linewidth=0)
         axes.plot(table.deepest_time[k] * 1e3, lane, marker="|", color=INK, markersize=5)
         if shown.size <= MOST_NAMED_PASSES and leave < stop * 1e3 - 0.07 * (stop - start) * 1e3:
-            axes.text(leave, lane, f"  ball {table.ball[k]}", va="center", ha="left", fontsize=7, color=INK)
+            axes.text(leave, lane, f"  {portrait.element_of(k)}", va="center", ha="left", fontsize=7, color=INK)
     deepest_lane = max(lanes, default=0)
     axes.set(ylim=(deepest_lane + 0.6, -0.6), yticks=[])
     axes.set_ylabel("entry\nto exit", rotation=0, ha="right", va="center", fontsize=7.5)
@@ -141,8 +141,8 @@ def draw_spectrogram(axes: Axes, portrait: Portrait) -> None:
     lines = vertical_modes(portrait)
     top = min(portrait.rate / 2.0, 1.3 * max(lines, default=portrait.rate / 2.0))
     draw_decibels(axes, time, frequency, power, span=DYNAMIC_RANGE_DB, top=top)
-    mark_frequencies(axes, (line for line in lines if line <= top))
     axes.set(ylim=(0.0, top * 1e-3), ylabel="kHz")
+    mark_frequencies(axes, (line for line in lines if line <= top))
     axes.set_xlabel("time (ms); dashed: modes along y at the middle of the close-up" if lines else "time (ms)")
     whose = portrait.recorded_words if portrait.clean is None else "clean"
     axes.set_title(f"Spectrogram, {whose}, {DYNAMIC_RANGE_DB:.0f} dB")

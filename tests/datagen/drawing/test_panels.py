@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 from matplotlib.colors import to_rgba
 
+from datagen.drawing.decibel_panel import NUMBER_HEIGHT, mark_frequencies
 from datagen.drawing.frequency_panels import draw_envelope_spectrum, draw_spectrum
-from datagen.drawing.path_panels import draw_ball_load, draw_path, load_over_spall
+from datagen.drawing.path_panels import draw_element_load, draw_path, load_over_spall
 from datagen.drawing.sheet import draw_sheet
 from datagen.drawing.style import BLUE, GREEN, GREY, ORANGE, PALE, VERMILLION, house_style, with_panels
 from datagen.drawing.time_panels import (
@@ -73,7 +74,7 @@ def test_a_bar_runs_from_entry_to_exit_of_each_pass_and_tells_whether_its_ball_i
         assert mark.get_xdata()[0] == pytest.approx(MS * table.deepest_time[k])
     words = [text.get_text().strip() for text in axes.texts]
     assert len(words) > 1
-    assert words == [f"ball {ball}" for ball in table.ball[shown]][: len(words)]
+    assert words == [f"ball {ball} of row 1" for ball in table.ball[shown]][: len(words)]
 
 
 def test_the_stiffness_along_the_load_is_on_the_left_and_that_across_it_on_the_right(portrait):
@@ -220,8 +221,39 @@ def test_the_ball_whose_load_is_drawn_is_the_one_that_is_at_the_spall(portrait):
     middle = 0.5 * (drawn.passes.entry_time[k] + drawn.passes.exit_time[k])
     places = 0.2 + scene.cage.mean_speed * middle + 2.0 * math.pi / 12.0 * np.arange(12)  # of twelve balls of row 1
     ball = 1 + int(np.argmin(np.abs(np.exp(1j * places) - np.exp(1j * spall.angle))))
-    title = panel_of(draw_ball_load, drawn).get_title(loc="left")
-    assert title == f"Quasi-static load of ball {ball} on its way over the spall"
+    title = panel_of(draw_element_load, drawn).get_title(loc="left")
+    assert title == f"Quasi-static load of ball {ball} of row 1 on its way over the spall"
+
+
+def test_rollers_are_called_so_and_a_row_is_told_where_there_are_two(portrait):
+    drawn = portrait("line, outer")
+    rig = drawn.scene.rig
+    rollers = replace(rig.bearing, rows=1, exponent=10.0 / 9.0)
+    single = replace(drawn, scene=replace(drawn.scene, rig=replace(rig, bearing=rollers)))
+    assert all(text.get_text().startswith("  roller ") for text in panel_of(draw_passes, single).texts)
+    assert "release of a roller" in lines_by_name(panel_of(draw_close_up, single))
+    assert panel_of(draw_path, single).get_title(loc="left").startswith("Path of a roller's centre: ")
+    assert single.element_of(0) == f"roller {drawn.passes.ball[0]}"
+    assert drawn.element_of(0) == f"ball {drawn.passes.ball[0]} of row 1"
+
+
+@pytest.mark.parametrize(
+    ("band", "side", "place"), [((100.0, 16_000.0), "left", 12.288), ((14e3, 15e3), "right", 14.0)]
+)
+def test_the_words_of_the_band_lie_in_the_panel(band, side, place):
+    axes = with_panels(figsize=(6.0, 3.0))[1]
+    draw_spectrum(axes, np.random.default_rng(1).standard_normal(2000), 32_768.0, band)
+    (words,) = axes.texts
+    assert (words.get_ha(), words.xy[0]) == (side, pytest.approx(place))
+
+
+def test_numbers_of_close_modes_stand_one_above_the_other():
+    axes = with_panels(figsize=(6.0, 3.0))[1]
+    axes.set_ylim(0.0, 2.0)
+    mark_frequencies(axes, [1010.0, 1000.0, 1500.0])
+    assert [line.get_ydata()[0] for line in axes.lines] == pytest.approx([1.0, 1.01, 1.5])
+    places = {text.get_text(): text.xy[1] for text in axes.texts}
+    assert places == pytest.approx({"1.00": 1.0, "1.01": 1.0 + 2.0 * NUMBER_HEIGHT, "1.50": 1.5})
 
 
 def test_the_waves_of_each_race_are_drawn_with_their_phase(portrait):

@@ -178,7 +178,8 @@ SCENARIO = Variable(
     "str",
     "",
     "scenario",
-    "JSON text with every number that is needed to simulate the record.",
+    "JSON text with every number that is needed to simulate the record; phi_f to roughness of its parameters are those "
+    "of the longest of its defects.",
     stored="simulated",
 )
 

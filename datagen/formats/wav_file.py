@@ -15,6 +15,8 @@ from datagen.formats.arrays import ONLY_NAME
 RATE_NAME = "rate_hz"
 # What scipy warns of a file that is shorter than its header says; other warnings are of chunks that hold no samples.
 EARLY_END = "EOF prematurely"
+# What numpy says where the samples of the channels do not come out even.
+PART_OF_A_SAMPLE = "cannot reshape array"
 
 
 class WaveArrays(dict[str, NDArray[Any]]):
@@ -34,6 +36,8 @@ def read_wav(path: Path) -> WaveArrays:
             warnings.simplefilter("always", wavfile.WavFileWarning)
             rate, samples = wavfile.read(path)
     except Exception as problem:  # whatever the damaged bytes lead scipy to
+        if PART_OF_A_SAMPLE in str(problem):
+            raise BadInput("the file is cut off: its last sample lacks channels", file=str(path)) from None
         raise BadInput(
             f"cannot be read as a wave file: {problem}", file=str(path), allowed="linear PCM of 8 to 64 bits, or floats"
         ) from None

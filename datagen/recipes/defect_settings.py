@@ -65,8 +65,8 @@ class SpallSettings(Table):
     """Standard deviation of the roughness inside the spall, µm; 0 if not given. That of profile tukey is smoothed over
     the width of the contact under the static load, which must be above 0."""
     table: Annotated[ProfileTable, WithJsonSchema(FILE_SCHEMA)] | None = None
-    """CSV file of a measured surface (angle_deg, depth_um) for profile table, which alone gives its extent, depth,
-    tapers and roughness: those settings have no effect on it."""
+    """CSV file of a measured surface (angle_deg, depth_um from 0 to 10000) for profile table, which alone gives its
+    extent, depth, tapers and roughness: those settings have no effect on it."""
 
     @model_validator(mode="after")
     def _one_of_each(self) -> SpallSettings:

@@ -83,15 +83,15 @@ class Source:
         bad = self.missing(wish, field)
         if not bad.size:
             return values
-        fits = longest_run(bad) <= LONGEST_GAP and bad.size <= MOST_MISSING * values.size and self._empty(wish, field)
+        empty = self._empty(wish, field)
+        fits = empty and longest_run(bad) <= LONGEST_GAP and bad.size <= MOST_MISSING * values.size
+        most = f"empty or NaN, at most {LONGEST_GAP} in a row and {MOST_MISSING:.0%} of all"
         if self.setting("missing_samples") != FILL:
-            allowed = f'finite numbers, or missing_samples = "{FILL}"' if fits else ""
+            may_fill = f'finite numbers, or missing_samples = "{FILL}"'
+            allowed = may_fill if fits else f"{may_fill} where they are {most}" if empty else ""
             raise self._not_finite(bad, values.size, wish, field, allowed)
         if not fits:
-            allowed = (
-                f"what is filled must be empty or NaN, at most {LONGEST_GAP} in a row and {MOST_MISSING:.0%} of all"
-            )
-            raise self._not_finite(bad, values.size, wish, field, allowed)
+            raise self._not_finite(bad, values.size, wish, field, f"what is filled must be {most}")
         return fill(values, bad)
 
     def instants(self, wish: str, field: str) -> Array:

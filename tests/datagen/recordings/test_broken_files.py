@@ -57,6 +57,14 @@ def test_a_file_that_breaks_off_is_refused_with_its_name(name: str, tmp_path: Pa
         assert "cannot be read as " in str(problem.value) or "the file is cut off: " in str(problem.value)
 
 
+def test_a_wave_file_that_breaks_off_within_a_sample_of_its_channels_is_called_cut_off(tmp_path: Path) -> None:
+    path = tmp_path / "stereo.wav"
+    scipy.io.wavfile.write(path, 8000, np.zeros((500, 2), np.int16))
+    path.write_bytes(path.read_bytes()[:-10])  # two samples and a half
+    with pytest.raises(BadInput, match="the file is cut off: its last sample lacks channels"):
+        read_arrays(path, None, CsvLayout())
+
+
 @pytest.mark.parametrize("name", ["a.mat", "a.csv", "a.wav", "a.npz", "a.h5"])
 def test_a_pointer_of_git_lfs_is_not_taken_for_a_damaged_file(name: str, tmp_path: Path) -> None:
     (tmp_path / name).write_text("version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12345\n")

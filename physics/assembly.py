@@ -37,8 +37,11 @@ WAVINESS_CELLS_PER_WAVE = 48
 TABLES_KEPT = 8
 
 
-def assemble(scene: Scene) -> Contacts:
-    """The contacts of `scene`; radial stiffness and damping include the contact angle [P14 Eq. 6, 9, 26]."""
+def assemble(scene: Scene, fineness: int = 1) -> Contacts:
+    """The contacts of `scene`; radial stiffness and damping include the contact angle [P14 Eq. 6, 9, 26].
+
+    Paths over spalls have a `fineness` times as many cells as usual.
+    """
     bearing, rig = scene.rig.bearing, scene.rig
     law = Law(
         stiffness=float(bearing.radial_load_deflection),
@@ -46,7 +49,7 @@ def assemble(scene: Scene) -> Contacts:
         damping=float(rig.radial_film_damping),
         no_tension=scene.no_tension,
     )
-    return Contacts(_balls(scene), np.zeros((len(scene.cages), FRAME_COLUMNS)), law, _track(scene))
+    return Contacts(_balls(scene), np.zeros((len(scene.cages), FRAME_COLUMNS)), law, _track(scene, fineness))
 
 
 def ball_numbers(scene: Scene) -> tuple[Index, Index]:
@@ -77,10 +80,10 @@ def _balls(scene: Scene) -> Array:
 
 
 @lru_cache(maxsize=TABLES_KEPT)
-def _track(scene: Scene) -> Track:
+def _track(scene: Scene, fineness: int) -> Track:
     """What the balls of `scene` run on; the same scene gives the same arrays, which are for reading only."""
     bearing = scene.rig.bearing
-    paths = [build_path(spall, bearing) for spall in scene.spalls]
+    paths = [build_path(spall, bearing, fineness) for spall in scene.spalls]
     cage, clock = _cage_arrays(scene.cages)
     return Track(
         cage=cage,

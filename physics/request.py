@@ -8,6 +8,7 @@ from typing import ClassVar
 from physics.checks import require_between, require_count, require_not_negative, require_one_of
 from physics.integrators.method_table import MARCHES
 from physics.ladder.model_table import SIMPLER_MODELS
+from physics.response.finer_paths import FINENESS
 from physics.response.part import LARGEST_ACCURACY, SMALLEST_ACCURACY
 from physics.response.stability import MOST_STABLE_SUBSTEPS
 from physics.trace import KEEPABLE
@@ -27,6 +28,8 @@ class Accurate:
     `least_error` (m/s², RMS): an error that is always allowed, as is rounding of forces (physics/response/silence.py).
     `repeat`: whether, where nothing slips and the acceleration alone is kept, it stops when the response repeats itself
         from ball to ball.
+    `path_fineness`: how many times as many cells as usual the paths of balls over spalls have, 1 to 16. None: 1, and
+        below an accuracy of 1e-4 as many as it needs (physics/response/finer_paths.py), which counts in the estimate.
 
     Raises InvalidParameter for a value out of range.
     """
@@ -34,11 +37,14 @@ class Accurate:
     accuracy: float = 1e-3
     least_error: float = 0.0
     repeat: bool = True
+    path_fineness: int | None = None
     keeps: ClassVar[tuple[str, ...]] = KEEPABLE
 
     def __post_init__(self) -> None:
         _require_accuracy(self.accuracy)
         require_not_negative("least_error", self.least_error, "m/s²")
+        if self.path_fineness is not None:
+            require_count("path_fineness", self.path_fineness, 1, FINENESS[-1])
 
 
 @dataclass(frozen=True)

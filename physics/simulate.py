@@ -15,6 +15,7 @@ from physics.outcome import Outcome, SimulationFailed
 from physics.request import Accurate, FixedSteps, HalvedSteps, LeadIn, Reference, Simpler, Solution
 from physics.response.adaptive import respond_accurately
 from physics.response.asked import Asked
+from physics.response.finer_paths import FINE_ACCURACY, respond_on_finer_paths
 from physics.response.fixed_steps import Stepping
 from physics.response.lead_in import from_start, respond_behind, started_earlier, starting_at
 from physics.response.lowered import respond_lowered
@@ -56,19 +57,36 @@ def simulate(
     for what in KEEPABLE:
         problem = f"keep.{what} = True; {solution} keeps {' and '.join(solution.keeps) or 'the acceleration'} alone"
         require(what in solution.keeps or not getattr(keep, what), problem, "keep")
-    before = lead_in.samples(rate)
-    _require_known_time(scene, rate, before)
+    _require_known_time(scene, rate, lead_in.samples(rate))
     rounding = silence(scene)
     if isinstance(solution, Accurate):
         solution = replace(solution, least_error=max(solution.least_error, rounding))
-    if before == 0:
-        trace = _respond(scene, rate, solution, keep)
+    if isinstance(solution, Accurate) and _needs_finer_paths(scene, solution):
+        usual = solution
+
+        def respond(fineness: int) -> Trace:
+            return _respond_behind(scene, rate, replace(usual, path_fineness=fineness), keep, lead_in)
+
+        trace = respond_on_finer_paths(respond, solution.accuracy, solution.least_error)
     else:
-        trace = _respond_to_lead_in(scene, rate, solution, keep, before)
-        trace = trace if lead_in.kept else from_start(trace)
+        trace = _respond_behind(scene, rate, solution, keep, lead_in)
     if not 0.0 < rms(trace.acceleration) <= rounding:
         return trace
     return replace(trace, silent=True, chaotic=False, error_estimate=min(trace.error_estimate, 1.0))
+
+
+def _needs_finer_paths(scene: Scene, solution: Accurate) -> bool:
+    """Whether the usual paths over spalls may leave more than the accuracy."""
+    return bool(scene.spalls) and solution.accuracy < FINE_ACCURACY and solution.path_fineness is None
+
+
+def _respond_behind(scene: Scene, rate: float, solution: Solution, keep: Kept, lead_in: LeadIn) -> Trace:
+    """The response behind a lead-in, if there is one, and of that if it is kept."""
+    before = lead_in.samples(rate)
+    if before == 0:
+        return _respond(scene, rate, solution, keep)
+    trace = _respond_to_lead_in(scene, rate, solution, keep, before)
+    return trace if lead_in.kept else from_start(trace)
 
 
 def _respond_to_lead_in(scene: Scene, rate: float, solution: Solution, keep: Kept, before: int) -> Trace:
@@ -125,7 +143,7 @@ def _respond_accurately(scene: Scene, rate: float, solution: Accurate, keep: Kep
     repeated = solution.repeat and alone and worth_repeating(scene, samples / rate, accuracy)
 
     def respond(sought: float) -> tuple[Trace, float]:
-        asked = Asked(longer, rest, rate * factor, marched, sought, solution.least_error)
+        asked = Asked(longer, rest, rate * factor, marched, sought, solution.least_error, solution.path_fineness or 1)
         trace = respond_until_repeated(asked) if repeated else respond_accurately(asked, keep)
         lowered, size = _lowered(trace, rate, factor, samples), rms(trace.acceleration)
         if trace.method == REPEATED and rms(lowered.acceleration) < LEAST_LEFT * size:

@@ -116,10 +116,10 @@ def _march(name: str, steps: int) -> Contestant:
 
 def _choosing(name: str, accuracy: float, *, repeat: bool) -> Contestant:
     def run(scene: Scene, rate: float) -> Raw:
-        return simulate(scene, rate, Accurate(accuracy, repeat=repeat))
+        return simulate(scene, rate, Accurate(accuracy, repeat=repeat, path_fineness=1))
 
     def run_with_state(scene: Scene, rate: float) -> Raw:
-        return simulate(scene, rate, Accurate(accuracy), keep=Kept(state=True))
+        return simulate(scene, rate, Accurate(accuracy, path_fineness=1), keep=Kept(state=True))
 
     return Contestant(METHOD, name, f"accuracy {accuracy:g}", run, _of_trace, run_with_state=run_with_state)
 

@@ -87,7 +87,7 @@ def draw_passes(axes: Axes, portrait: Portrait) -> None:
         axes.barh(lane, leave - entry, left=entry, height=0.6, color=ORANGE if table.loaded[k] else PALE, linewidth=0)
         axes.plot(table.deepest_time[k] * 1e3, lane, marker="|", color=INK, markersize=5)
         if shown.size <= MOST_NAMED_PASSES and leave < stop * 1e3 - 0.07 * (stop - start) * 1e3:
-            axes.text(leave, lane, f"  {portrait.element_of(k)}", va="center", ha="left", fontsize=7, color=INK)
+            axes.text(leave, lane, f"  {portrait.element_of(int(k))}", va="center", ha="left", fontsize=7, color=INK)
     deepest_lane = max(lanes, default=0)
     axes.set(ylim=(deepest_lane + 0.6, -0.6), yticks=[])
     axes.set_ylabel("entry\nto exit", rotation=0, ha="right", va="center", fontsize=7.5)

@@ -16,7 +16,7 @@ from physics.paths.corners import Branches
 from physics.paths.depth_path import Curve, DepthPath, hermite_path
 from physics.paths.held_ball import ball_of
 from physics.paths.path_nodes import bumpy_branches, gap_branches, table_branches
-from physics.paths.rolling import roll
+from physics.paths.rolling import FEWEST_STEPS, roll
 from physics.paths.spall_surface import (
     floor_ends,
     gap_surface,
@@ -44,20 +44,21 @@ PATHS_KEPT = 64
 
 
 @lru_cache(maxsize=PATHS_KEPT)
-def build_path(spall: Spall, bearing: Bearing) -> DepthPath:
-    """The path of the ball's centre over `spall`: a Tukey window, a deep gap in closed form, or a rolled surface.
+def build_path(spall: Spall, bearing: Bearing, fineness: int = 1) -> DepthPath:
+    """The path of the ball's centre over `spall`: a Tukey window, a deep gap in closed form, or a rolled surface;
+    in cells a `fineness` times as many as usual.
 
     The same spall and bearing give the same object, wherever on the race the spall is, so its arrays are for reading
     only.
     """
-    return _path_of_shape(replace(spall, angle=0.0, row=1), bearing)
+    return _path_of_shape(replace(spall, angle=0.0, row=1), bearing, fineness)
 
 
 @lru_cache(maxsize=PATHS_KEPT)  # a lead-in turns spalls of the inner race, and their paths stay
-def _path_of_shape(spall: Spall, bearing: Bearing) -> DepthPath:
+def _path_of_shape(spall: Spall, bearing: Bearing, fineness: int) -> DepthPath:
     if spall.rolled_arc > 0.0:
-        return _rolled_path(spall, bearing)
-    return _tukey_path(spall) if spall.profile == "tukey" else _gap_path(spall, bearing)
+        return _rolled_path(spall, bearing, fineness)
+    return _tukey_path(spall, fineness) if spall.profile == "tukey" else _gap_path(spall, bearing, fineness)
 
 
 def is_rough(spall: Spall, bearing: Bearing) -> bool:
@@ -125,7 +126,7 @@ def wrap(angle: Array) -> Array:
     return (angle + math.pi) % (2.0 * math.pi) - math.pi
 
 
-def _tukey_path(spall: Spall) -> DepthPath:
+def _tukey_path(spall: Spall, fineness: int) -> DepthPath:
     half, surface = spall.extent / 2.0, gap_surface(spall)
     rough = bool(spall.roughness_values)
     edges = _distinct([-half, -half + spall.entry_taper, half - spall.exit_taper, half])
@@ -133,7 +134,7 @@ def _tukey_path(spall: Spall) -> DepthPath:
     cells = []
     for left, right in pairwise(edges):
         flat = left >= -half + spall.entry_taper and right <= half - spall.exit_taper
-        cells.append(max(1 if flat else CELLS_PER_TAPER, math.ceil((right - left) / cell)))
+        cells.append(fineness * max(1 if flat else CELLS_PER_TAPER, math.ceil((right - left) / cell)))
 
     def of_cells(halvings: int) -> DepthPath:
         finer = [count << halvings for count in cells]
@@ -158,14 +159,14 @@ def _error_between_nodes(path: DepthPath, depth: Curve) -> float:
     return float(np.abs(path.depth(arcs) - depth(arcs)).max())
 
 
-def _gap_path(spall: Spall, bearing: Bearing) -> DepthPath:
+def _gap_path(spall: Spall, bearing: Bearing, fineness: int) -> DepthPath:
     """A gap with sharp edges in closed form: the ball hangs on the nearer edge until it reaches the floor."""
     half, ball = spall.extent / 2.0, ball_of(bearing, spall.race)
     bridged = bool(half < ball.half_arc and ball.drop_from_edge(np.array(half)) < spall.depth)
     reach = half if bridged else min(half, ball.reach_from_edge(spall.depth))
     edges = np.array(_distinct([-half, -half + reach, half - reach, half]))
     on_floor = np.abs(edges[1:] + edges[:-1]) / 2.0 < half - reach
-    cells = [1 if flat else CELLS_PER_TAPER for flat in on_floor]
+    cells = [1 if flat else CELLS_PER_TAPER * fineness for flat in on_floor]
 
     def nearer_edge(arc: Array) -> Array:
         return np.clip(half - np.abs(arc), 0.0, reach)
@@ -180,7 +181,7 @@ def _gap_path(spall: Spall, bearing: Bearing) -> DepthPath:
     return hermite_path(edges, cells, depth, slope, bridged=bridged, bumps=False, rough=False)
 
 
-def _rolled_path(spall: Spall, bearing: Bearing) -> DepthPath:
+def _rolled_path(spall: Spall, bearing: Bearing, fineness: int) -> DepthPath:
     measured, lips = spall.profile == "table", table_arcs(spall)
     surface = table_surface(spall) if measured else gap_surface(spall)
     ball = ball_of(bearing, spall.race)
@@ -188,7 +189,7 @@ def _rolled_path(spall: Spall, bearing: Bearing) -> DepthPath:
     # The race ends where the table does, which may be within the spall: a ball can hang there.
     first, last = (lips[0], lips[-1]) if measured else (-spall.extent / 2.0, spall.extent / 2.0)
     step = max(ROLLED_STEP / ball.race_radius, (last - first) / MOST_STEPS)
-    rolled = roll(surface, (first, last), ball, step, lips)
+    rolled = roll(surface, (first, last), ball, min(step, (last - first) / FEWEST_STEPS) / fineness, lips)
     rough = rough or turning_points(np.array(spall.table_depth)) > MOST_TURNS
     path = rolled.path
     if rough:

@@ -53,7 +53,7 @@ def respond_accurately(
     same machine, and the estimate is 1. Raises SimulationFailed if the response stops being finite, contact changes
     more often than can be logged, or steps become too many.
     """
-    case = case_of(asked.scene, asked.rest, asked.rate)
+    case = case_of(asked.scene, asked.rest, asked.rate, asked.fineness)
     goal = Goal(case, asked.samples, asked.accuracy, asked.least_error, keep, go_on)
     output, error, sensitivity = _response(goal, pilot)
     size, marched, interval = rms(output.acceleration), output.acceleration.shape[0], 1.0 / asked.rate

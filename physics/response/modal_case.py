@@ -40,7 +40,7 @@ SMALLEST_STIFFNESS = 1e3
 @dataclass(frozen=True)
 class Case:
     """What every march of a scene from the state `start` (12,) on a grid of `rate` (Hz) has in common; `error_memory`
-    (s): how long its contacts may make errors grow."""
+    (s): how long its contacts may make errors grow; `fine`: whether floors far below the usual accuracy matter."""
 
     scene: Scene
     flow: LinearFlow
@@ -49,6 +49,7 @@ class Case:
     stops: Stops
     start: Array
     rate: float
+    fine: bool = False
 
     @cached_property
     def ringing(self) -> float:
@@ -87,13 +88,14 @@ class Case:
         return math.sqrt(0.5 * self.ringing * float(output.spent[0]) * self.rate / output.acceleration.shape[0])
 
 
-def case_of(scene: Scene, rest: Equilibrium, rate: float) -> Case:
-    """`scene` made ready for marches at `rate` (Hz) from the first of the positions at which it is `resting`."""
-    motion, contacts = motion_model(scene), assemble(scene)
+def case_of(scene: Scene, rest: Equilibrium, rate: float, fineness: int = 1) -> Case:
+    """`scene` made ready for marches at `rate` (Hz) from the first of the positions at which it is `resting`, over
+    paths with a `fineness` times as many cells as usual."""
+    motion, contacts = motion_model(scene), assemble(scene, fineness)
     flow, start = mean_flow(motion, rest), starting_state(motion, rest.displacement[0])
     memory = memory_of_errors(flow, rest.stiffness[:, :2].std(axis=0))
     stops = known_kinks(scene, contacts, STRIDES[-1] / rate)
-    return Case(scene, flow, memory, contacts, stops, start, rate)
+    return Case(scene, flow, memory, contacts, stops, start, rate, fine=fineness > 1)
 
 
 def mean_flow(motion: MotionModel, rest: Equilibrium) -> LinearFlow:
@@ -131,7 +133,7 @@ class March:
         case, contacts = self.case, self._contacts
         if self._memory is None:
             start = case.amplitudes(self.push)
-            self._memory = memory_for(case.flow, start, case.tables, contacts.balls.shape, case.longest)
+            self._memory = memory_for(case.flow, start, case.tables, contacts.balls.shape, case.longest, case.fine)
             begin(contacts, case.flow, grid, self._memory, self.output)
         self._memory.marks[RETUNE] = 0  # the grid may be another one than before
         status = LOG_FULL

@@ -102,7 +102,9 @@ def judge(scene: Scene, rate: float) -> tuple[Trace, float]:
 
 def rivals(scene: Scene, rate: float, exact: Array) -> dict[str, float]:
     """Processor time (s) of every setting of the chart that keeps the accuracy."""
-    settings: dict[str, Solution] = {f"modal {accuracy:g}": Accurate(accuracy) for accuracy in ACCURACIES}
+    settings: dict[str, Solution] = {
+        f"modal {accuracy:g}": Accurate(accuracy, path_fineness=1) for accuracy in ACCURACIES
+    }
     for method in CHEAP_METHODS:
         for count in SUBSTEPS[method]:
             settings[f"{method} {count}"] = FixedSteps(count, method)

@@ -67,7 +67,7 @@ class Memory(NamedTuple):
     - `past` (2, 2): contact force (N) at the beginning and in the middle of the step before
     - `noted`, `midway` (G, 2, M): compression (m) and its rate (m/s) of the balls at the step's beginning and midway
     - `clock`, `marks`: the entries named above; `fastest` (1/s): the largest size of an eigenvalue;
-      `longest` (s): that of any step
+      `longest` (s): that of any step; `fine`: whether a step to a kink goes on over the nudge behind it
     """
 
     states: Array
@@ -86,6 +86,7 @@ class Memory(NamedTuple):
     marks: Index
     fastest: float
     longest: float
+    fine: bool
 
 
 class ModalGrid(NamedTuple):
@@ -108,10 +109,15 @@ class ModalGrid(NamedTuple):
 
 
 def memory_for(
-    flow: LinearFlow, start: Array, tables: tuple[Array, Array], shape: tuple[int, ...], longest: float = math.inf
+    flow: LinearFlow,
+    start: Array,
+    tables: tuple[Array, Array],
+    shape: tuple[int, ...],
+    longest: float = math.inf,
+    fine: bool = False,
 ) -> Memory:
     """Memory for a march from the amplitudes `start` (12,) of contacts whose balls are an array of this `shape`, in
-    steps of `longest` (s) at most.
+    steps of `longest` (s) at most; a `fine` one leaves out no time behind a kink.
 
     `tables` (modal/tables.py) may serve several marches at once: the row BETWEEN is the memory's own.
     """
@@ -133,4 +139,5 @@ def memory_for(
         marks=np.zeros(MARKS_ENTRIES, dtype=np.int64),
         fastest=flow.fastest,
         longest=longest,
+        fine=fine,
     )

@@ -261,7 +261,9 @@ def march_modal(
         choice = next_step(contacts.balls, grid, stops, memory)
         step = choice.end - clock[TIME]
         if choice.row == BETWEEN:
-            set_between(flow, memory, step, grid.interval / UNITS)
+            # Otherwise what moves stands still over the nudge: 2e-8 of a sample, at every kink alike.
+            reach = choice.beyond if memory.fine and choice.units == 0 else choice.end
+            set_between(flow, memory, reach - clock[TIME], grid.interval / UNITS)
         trial, middle = try_step(contacts, flow, memory, choice.row, step, now, force, then)
         after = trial.after
         if marks[BALL] == NO_BALL:

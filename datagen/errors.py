@@ -34,7 +34,9 @@ class BadInput(Exception):
 
 
 def unreadable(path: object, problem: OSError, field: str = "") -> BadInput:
-    """The refusal of a file that the system does not let be read, in its words."""
+    """The refusal of a file that is not there, or that the system does not let be read, in its words."""
+    if isinstance(problem, FileNotFoundError):
+        return BadInput("no such file", file=str(path), field=field)
     return BadInput(f"cannot be read: {problem.strerror or problem}", file=str(path), field=field)
 
 

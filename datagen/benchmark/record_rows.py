@@ -20,7 +20,7 @@ from datagen.judging.known import known_kinematics
 from labels.band_tree import band_edges, usable_bandwidth
 from labels.classifier.liveness import DEAD, liveness, recorder_step
 from labels.dead_sensor import is_dead
-from labels.features.analysis import NARROWEST_BAND, analyse
+from labels.features.analysis import analyse
 from labels.features.conditioning import FEWEST_SAMPLES_USED
 from labels.features.kinematics import Kinematics
 from labels.features.known_lines import races_in_mains, races_in_shaft
@@ -150,7 +150,7 @@ def record_rows(
 def _band_count(kinematics: Kinematics, bandwidth: float) -> int:
     """How many bands of the `bandwidth` (Hz) hold enough harmonics of the ball passes to be searched; all of it is one
     of them in any case."""
-    return len(band_edges(bandwidth, NARROWEST_BAND * kinematics.bpfi * kinematics.shaft_hz))
+    return len(band_edges(bandwidth, kinematics.narrowest_band_hz))
 
 
 def _found_rpm(rows: Sequence[Row]) -> float | None:

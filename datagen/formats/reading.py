@@ -67,7 +67,5 @@ def read_arrays(path: Path, stated: str | None, layout: CsvLayout) -> Arrays:
     try:
         _refuse_pointer(path)
         return read_csv(path, layout) if kind == "csv" else READERS[kind](path)
-    except FileNotFoundError:
-        raise BadInput("no such file", file=str(path)) from None
     except OSError as problem:
         raise unreadable(path, problem) from None

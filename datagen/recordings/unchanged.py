@@ -34,8 +34,6 @@ def first_state(path: Path) -> State:
 def _state(path: Path) -> State:
     try:
         found = path.stat()
-    except FileNotFoundError:
-        raise BadInput("no such file", file=str(path)) from None
     except OSError as problem:
         raise unreadable(path, problem) from None
     return found.st_size, found.st_mtime_ns, found.st_ino

@@ -21,8 +21,6 @@ from labels.features.speed import Speed, refine_speed, vibration_lines
 from labels.features.turning import Turning
 from physics.arrays import Array
 
-# Width of the narrowest band, in BPFI: what holds three harmonics of either race's family.
-NARROWEST_BAND = 3.5
 # Share of BPFO by which the line may lie off: a slipping cage lowers it, a contact angle of up to 15° raises it.
 OUTER_WINDOW = (-0.027, 0.013)
 # The same of BPFI, which slip raises and a contact angle lowers.
@@ -70,7 +68,7 @@ class Analysis:
             self.record,
             self.given.shaft_hz,
             min(self.top_hz, HIGHEST_SHARE * self.record.bandwidth),
-            NARROWEST_BAND * self.given.bpfi * self.given.shaft_hz,
+            self.given.narrowest_band_hz,
         )
 
     @cached_property

@@ -16,6 +16,7 @@ SLIP_SPREAD = 0.007
 # Shares by which a shaft may turn faster or slower than a speed that was measured or told, and than a nominal one: the
 # rotor of a motor lags behind the field, the more so the smaller the motor and the larger its load.
 MEASURED_WITHIN, NOMINAL_WITHIN = 0.022, 0.05
+NARROWEST_BAND = 3.5  # in BPFI
 
 
 @dataclass(frozen=True)
@@ -59,6 +60,11 @@ class Kinematics:
     def bpfi(self) -> float:
         """Order at which balls pass a point of the inner race."""
         return inner_pass_order(self.balls, self.diameter_ratio)
+
+    @property
+    def narrowest_band_hz(self) -> float:
+        """Width (Hz) of the narrowest band worth searching, which holds three harmonics of either race's family."""
+        return NARROWEST_BAND * self.bpfi * self.shaft_hz
 
     def pass_order(self, race: str) -> float:
         """Order at which balls pass a point of the race "outer" or "inner"; InvalidParameter for another."""

@@ -197,7 +197,7 @@ def test_a_recording_that_vanishes_before_its_hash_is_taken_is_named(
     monkeypatch.setattr("datagen.recordings.opened_files.file_hash", vanished)
     with pytest.raises(BadInput) as problem:
         bring(SPEC)
-    assert str(problem.value) == f"{tmp_path / 'a.mat'}: cannot be read: No such file or directory"
+    assert str(problem.value) == f"{tmp_path / 'a.mat'}: no such file"
 
 
 def test_a_folder_that_somebody_filled_meanwhile_is_refused_and_kept(tmp_path: Path) -> None:

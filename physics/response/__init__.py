@@ -9,5 +9,5 @@
   a march writes into, and the trace that comes of it
 - `oversampling`: how finely to sample a response; `resampling`: other samples of what came out
 - `part`: made again until a part of it is exact enough: what comes behind a lead-in, or what is left at a lower rate
-  (`lowered`)
+  (`lowered`); `finer_paths`: made again over paths of balls in finer cells, for a small accuracy
 """

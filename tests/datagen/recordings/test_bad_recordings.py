@@ -125,8 +125,8 @@ def test_a_scale_of_nothing_is_told_of_the_file_that_holds_it(bring: Bring, mat:
     [
         (
             np.array([0.0, np.nan, np.inf] + [1.0] * 30),
-            "2 of 33 samples are not finite numbers, the first at sample 1 (from 0); allowed: finite numbers, or "
-            'missing_samples = "fill" where they are empty or NaN, at most 10 in a row and 1% of all',
+            "2 of 33 samples are not finite numbers, the first at sample 1 (from 0); allowed: finite numbers; "
+            "they can be filled where they are empty or NaN, at most 10 in a row and 1% of all",
         ),
         (np.zeros(0), 'y = "sig": holds 0 samples; allowed: at least 16 samples'),
         (np.ones(15), "holds 15 samples"),

@@ -87,8 +87,11 @@ class Source:
         fits = empty and longest_run(bad) <= LONGEST_GAP and bad.size <= MOST_MISSING * values.size
         most = f"empty or NaN, at most {LONGEST_GAP} in a row and {MOST_MISSING:.0%} of all"
         if self.setting("missing_samples") != FILL:
-            allowed = f"finite numbers; they can be filled where they are {most}" if empty else ""
-            allowed = f'finite numbers, or missing_samples = "{FILL}"' if fits else allowed
+            allowed = ""
+            if fits:
+                allowed = f'finite numbers, or missing_samples = "{FILL}"'
+            elif empty:
+                allowed = f"finite numbers; they can be filled where they are {most}"
             raise self._not_finite(bad, values.size, wish, field, allowed)
         if not fits:
             raise self._not_finite(bad, values.size, wish, field, f"what is filled must be {most}")

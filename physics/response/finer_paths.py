@@ -26,10 +26,12 @@ def respond_on_finer_paths(respond: Callable[[int], Trace], accuracy: float, lea
     """
     trace = respond(1)
     for fineness in FINENESS:
+        if trace.chaotic:  # then finer paths settle nothing
+            break
         coarse, trace = trace, respond(fineness)
         signal = trace.acceleration[trace.time >= 0.0]
         size = rms(signal)
-        if coarse.chaotic or trace.chaotic or size == 0.0:
+        if trace.chaotic or size == 0.0:
             break
         apart = rms(signal - coarse.acceleration[trace.time >= 0.0])
         trace = replace(trace, error_estimate=max(trace.error_estimate, apart / size))

@@ -1,13 +1,36 @@
-"""How a command ends where something stops it: one sentence and the exit code that belongs to it."""
+"""How commands print their results, and how they end where something stops them."""
 
 import errno
 
 import pytest
 from command_line import run
+from rich.table import Table
 
+from datagen.commands.program import show_tables
 from datagen.commands.termination import Terminated
 from datagen.inspection import info
 from physics.outcome import Outcome, SimulationFailed
+
+# Opening and closing tags of rich, one that nothing opens, and a picture of its.
+TEXT = "[red]dry[/red] [/] :boom:"
+
+
+def test_texts_of_a_table_are_printed_as_they_stand(capsys: pytest.CaptureFixture[str]) -> None:
+    table = Table(TEXT, title=f"title {TEXT}")
+    table.add_row(f"cell {TEXT}")
+    show_tables([table])
+    printed = capsys.readouterr().out
+    assert printed.count(TEXT) == 3
+
+
+def test_without_a_terminal_names_are_printed_whole(capsys: pytest.CaptureFixture[str]) -> None:
+    name = "Learning_set/Bearing1_1/acc_00001 horizontal " * 4 + "x" * 150
+    table = Table("record", "recording", "why")
+    table.add_row("1", name, "no ball passes stand out of the record " * 5)
+    show_tables([table])
+    printed = capsys.readouterr().out
+    assert name in printed
+    assert "record" in printed
 
 
 @pytest.mark.parametrize(

@@ -84,6 +84,12 @@ def test_paths_are_made_finer_until_what_they_leave_is_allowed():
     assert left[1e-6] == pytest.approx(1.875e-4, rel=1e-3)
 
 
+def test_a_chaotic_response_is_made_over_the_usual_paths_alone():
+    trace, asked = replace(simulate(reference_scene("F1", 0.02), RATE), chaotic=True), []
+    assert respond_on_finer_paths(lambda fineness: asked.append(fineness) or trace, 1e-6, 0.0) is trace
+    assert asked == [1]
+
+
 def test_no_other_fineness_is_allowed():
     with pytest.raises(InvalidParameter, match="path_fineness"):
         Accurate(path_fineness=32)

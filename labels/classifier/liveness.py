@@ -31,7 +31,7 @@ WHITE = 0.05
 WHITE_BANDS = 24
 # Shares of the bandwidth that are looked at: below and above recorders let through less.
 WHITE_FROM, WHITE_TO = 0.1, 0.8
-# Lines of the shaft and of passing balls that are looked for, below the top of STILL_BAND or so many times the shaft's.
+# Lines of the shaft and of passing balls that are looked for; those of a fast shaft lie above STILL_BAND too.
 LINES = 6
 # Nats of shaft harmonics or passing balls that show a turning shaft however little it shakes.
 TURNING_EVIDENCE = 30.0

@@ -52,7 +52,7 @@ def check_recipe(source: str | Path, say: Say = ignore) -> RecipeFacts:
     """What the recipe at `source`, its file, folder or name, would make; raises BadInput as `generate` does.
 
     All records are drawn for that. `say` is called with what `generate` says of them: ranges that hold impossible
-    values, and rates that are too low.
+    values, rates that are too low, and ball passes that records do not show.
     """
     recipe = load_recipe(source)
     asked = selection(recipe, None, None)

@@ -19,6 +19,7 @@ from datagen.records.profile_grid import PROFILE_POINTS
 from datagen.records.stiffness_axis import shard_key, stiffness_axis
 from datagen.runs.rates import TooLowRates
 from datagen.runs.redraws import RedrawCount
+from datagen.runs.unseen_passes import UnseenPasses
 from datagen.scenarios.sampling import draw_scenario
 from datagen.scenarios.scenario import Scenario
 from labels.schema import LAYERS
@@ -55,12 +56,12 @@ def plan_shards(recipe: Recipe, stop: int, say: Say = ignore) -> list[PlannedSha
 
     Records go, in their order, to the open shard of their kind (sampling, bearing size, stored signals), and a shard
     is closed when it holds `records_per_shard`: so a longer plan continues a shorter one. `say` is told the progress of
-    a plan that takes long and, at the end, of impossible draws if they were many and of sampling rates that are too
-    low. Raises BadInput if a record can hardly be drawn.
+    a plan that takes long and, at the end, of impossible draws if they were many, of sampling rates that are too
+    low and of ball passes that many records do not show. Raises BadInput if a record can hardly be drawn.
     """
     filled = _Filled(recipe)
     kinds_met: set[tuple[str, str]] = set()
-    redraws, rates = RedrawCount(recipe), TooLowRates()
+    redraws, rates, unseen = RedrawCount(recipe), TooLowRates(), UnseenPasses()
     reports = Throttle(SECONDS_BETWEEN_REPORTS, time.monotonic() + SECONDS_BETWEEN_REPORTS)
     for record in range(stop):
         if reports.due(time.monotonic()):
@@ -68,10 +69,11 @@ def plan_shards(recipe: Recipe, stop: int, say: Say = ignore) -> list[PlannedSha
         scenario = draw_scenario(recipe, record)
         redraws.add(scenario)
         rates.add(scenario)
+        unseen.add(scenario)
         kind = (scenario.rig, scenario.condition)
         filled.add(record, scenario, stored_signals(recipe, first_of_kind=kind not in kinds_met))
         kinds_met.add(kind)
-    for sentence in filter(None, (redraws.sentence(), rates.sentence())):
+    for sentence in filter(None, (redraws.sentence(), rates.sentence(), *unseen.sentences())):
         say(sentence)
     return filled.planned()
 

@@ -15,7 +15,7 @@ TEXT = """name = "a"
 seed = 1
 [signal]
 rate_hz = 32768
-duration_s = 0.02
+duration_s = 0.05
 [[part]]
 name = "p"
 records = 40

@@ -89,6 +89,11 @@ class Manifest:
         """Number of records asked for."""
         return sum(stop - start for start, stop in self.asked)
 
+    @property
+    def every_asked(self) -> frozenset[int]:
+        """The index of every record asked for."""
+        return frozenset(record for start, stop in self.asked for record in range(start, stop))
+
     def with_shards(self, sidecars: Iterable[Sidecar]) -> Manifest:
         """The manifest with what the sidecars of the finished shards say."""
         found = list(sidecars)

@@ -98,12 +98,12 @@ def _wrong_between_shards(parts: CorpusParts) -> Findings:
     problems = []
     if parts.missing:
         problems.append(
-            f"{len(parts.missing)} of {len(parts.asked)} records asked for are missing, the first {min(parts.missing)}"
+            f"{len(parts.missing)} of {parts.manifest.asked_records} records asked for are missing, "
+            f"the first {min(parts.missing)}"
         )
     problems += differences(parts.manifest, parts.folder, parts.sidecars, compare_sums=not parts.unlisted)
-    failed = parts.failed & parts.asked
-    if failed:
-        problems.append(f"{counted(len(failed), 'record')} could not be made; {FAILURES} says why")
+    if parts.failed:
+        problems.append(f"{counted(len(parts.failed), 'record')} could not be made; {FAILURES} says why")
     return Findings(tuple(problems)) + _wrong_index(parts)
 
 

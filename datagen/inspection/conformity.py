@@ -82,13 +82,14 @@ def _wrong_labels(dataset: xarray.Dataset) -> Iterator[str]:
     extended = dataset["condition"].values == "extended"
     relative = dataset["extent_spacing"].values
     low, high = dataset["envelope_band"].values.T
-    unbanded = np.isnan(low) & np.isnan(high)
+    unbanded, half_rate = np.isnan(low) & np.isnan(high), dataset["rate_hz"].values / 2.0
+    tension = dataset["tension_share"].values
     rules = {
         "condition and location disagree": healthy != (dataset["location"].values == "none"),
         "condition and extent disagree": healthy != (dataset["extent"].values == 0.0),
         "condition and extent_spacing disagree": (extended != (relative >= EXTENDED_FROM)) & ~np.isnan(relative),
-        "envelope_band is not below half the rate": ~(unbanded | ((low < high) & (high <= _half_rate(dataset)))),
-        "tension_share is not a share": ~_within(dataset["tension_share"].values, 0.0, 1.0),
+        "envelope_band is not below half the rate": ~(unbanded | ((low < high) & (high <= half_rate))),
+        "tension_share is not a share": (tension < 0.0) | (tension > 1.0),
     }
     if "spalls" in dataset:
         rules["condition and spalls disagree"] = healthy != (dataset["spalls"].values == 0)
@@ -117,11 +118,3 @@ def _wrong_tables(dataset: xarray.Dataset) -> Iterator[str]:
     counts = Counter(dataset["defect_record"].values.tolist())
     if [counts[index] for index in record.tolist()] != dataset["spalls"].values.tolist():
         yield "the defect table and the label spalls disagree"
-
-
-def _half_rate(dataset: xarray.Dataset) -> np.ndarray:
-    return dataset["rate_hz"].values / 2.0
-
-
-def _within(values: np.ndarray, low: float, high: float) -> np.ndarray:
-    return np.isnan(values) | ((values >= low) & (values <= high))

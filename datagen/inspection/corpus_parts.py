@@ -45,19 +45,14 @@ class CorpusParts:
         return frozenset(record for sidecar in self.sidecars for record in sidecar.records)
 
     @cached_property
-    def asked(self) -> frozenset[int]:
-        """The records that any run was asked for."""
-        return frozenset(record for start, stop in self.manifest.asked for record in range(start, stop))
-
-    @cached_property
     def failed(self) -> frozenset[int]:
         """The records that could not be made."""
         return frozenset(failure.record for failure in self.manifest.failed)
 
-    @property
+    @cached_property
     def missing(self) -> frozenset[int]:
         """The records that were asked for and are not there, though none of them failed."""
-        return self.asked - self.records - self.failed
+        return self.manifest.every_asked - self.records - self.failed
 
     @cached_property
     def rows_of_shard(self) -> Mapping[Hashable, NDArray[np.int64]]:

@@ -41,7 +41,7 @@ def differences(manifest: Manifest, folder: Path, sidecars: Sequence[Sidecar], c
     """In what a manifest differs from what the `sidecars` of all shards of the corpus `folder` add up to; without
     `compare_sums` only whether it knows all records, as where it is known to lack shards."""
     made = {record for sidecar in sidecars for record in sidecar.records}
-    if not made <= {record for start, stop in manifest.asked for record in range(start, stop)}:
+    if not made <= manifest.every_asked:
         yield "manifest.json: the corpus holds records that it does not list as asked for"
     if not compare_sums:
         return

@@ -15,6 +15,7 @@ from labels.features.race_combs import race_combs
 STEP, SHAFT, COUNT = 0.1, 30.0, 8000
 BEARING = bearing_kinematics(9, 39.04e-3, 7.94e-3, 0.0, SHAFT)
 BANDS = 7
+HARDLY = 1e-9  # share by which a speed that is as good as exact may be wrong
 
 
 def spectrum(*lines, height=40.0, seed=0):
@@ -25,9 +26,10 @@ def spectrum(*lines, height=40.0, seed=0):
     return excess
 
 
-def combs(excess, step=STEP, doubt=0.0):
+def combs(excess, step=STEP, doubt=HARDLY):
     """Rates (Hz) of the combs in a spectrum of which everything is readable."""
-    return foreign_combs(excess, step, BEARING, np.ones(excess.shape[-1], dtype=bool), doubt)
+    known = dataclasses.replace(BEARING, speed_within=doubt)
+    return foreign_combs(excess, step, known, np.ones(excess.shape[-1], dtype=bool))
 
 
 def without(excess, step=STEP):
@@ -101,7 +103,8 @@ def test_lines_that_were_taken_out_do_not_speak_against_a_comb():
     for k in (1, 2, 3, 5, 6, 7):
         taken_out |= np.abs(at - k * rate) < 5.0 * STEP
     excess[:, taken_out] = 1.0
-    assert foreign_combs(excess, STEP, BEARING, ~taken_out) == pytest.approx([rate], abs=STEP / 10)
+    known = dataclasses.replace(BEARING, speed_within=HARDLY)
+    assert foreign_combs(excess, STEP, known, ~taken_out) == pytest.approx([rate], abs=STEP / 10)
     assert combs(excess) == []
 
 
@@ -117,7 +120,8 @@ def test_no_comb_holds_every_line_of_a_shaft_whose_speed_is_in_doubt(part):
     """Every third, fifth or eighth line is one of a shaft that turns 2 % faster than stated."""
     rate = 1.02 * SHAFT / part
     excess = spectrum(*multiples(rate, 200))
-    assert combs(excess) == pytest.approx([rate], abs=STEP / 10)
+    [found] = combs(excess)
+    assert found / rate == pytest.approx(round(found / rate), abs=0.01)
     turns = 1.02 * SHAFT / np.array(combs(excess, doubt=0.022))  # of the comb in one of the shaft
     assert np.all(np.abs(turns - np.round(turns)) > 0.1)
 

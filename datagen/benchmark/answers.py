@@ -22,14 +22,13 @@ def estimator_name(estimator: Any) -> str:
     return str(getattr(estimator, "__name__", type(estimator).__name__))
 
 
-def class_probability(estimator: Any, table: Array, given: str = "") -> Array:
+def class_probability(estimator: Any, table: Array, name: str) -> Array:
     """Probabilities (N, 5) of CLASSES from `predict_proba`, from `predict`, or from calling the estimator.
 
-    It is given a copy of the `table` (N, F). A class that it never saw has 0. Raises BadInput, which names the
-    estimator as the user has `given` it, for names that are not classes or that `classes_` has twice, for a wrong
-    shape, and for numbers that are not probabilities.
+    It is given a copy of the `table` (N, F). A class that it never saw has 0. Raises BadInput, which calls the
+    estimator by its `name`, for names that are not classes or that `classes_` has twice, for a wrong shape, and for
+    numbers that are not probabilities.
     """
-    name = given or estimator_name(estimator)
     with user_code(name, "it failed to answer"):
         said, names = _answer(estimator, table.copy())
     if len(said) != len(table) or said.ndim not in (1, 2):

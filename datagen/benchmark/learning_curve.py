@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from datagen.benchmark.answers import estimator_name
 from datagen.benchmark.options import Learning
 from datagen.benchmark.training import Model, TrainingSet, copy_of, train
 from datagen.benchmark.verdicts import vote
@@ -44,7 +45,7 @@ def learning_curve(
     for count in sorted(counts):
         listener.step(f"learning curve: {count} of {others.size} bearings")
         part = training.subset(np.isin(training.bearings, others[:count]))
-        fresh = None if estimator is None else copy_of(estimator, learning.estimator or "")
+        fresh = None if estimator is None else copy_of(estimator, learning.estimator or estimator_name(estimator))
         try:
             models = train(part, learning, fresh)
         except BadInput as problem:

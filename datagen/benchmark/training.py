@@ -94,9 +94,8 @@ class Model:
     def probability(self, table: Array) -> Array:
         """Probabilities (N, 5) of CLASSES, some rows at a time; a class that the estimator never saw has 0."""
         starts = range(0, max(len(table), 1), ROWS_AT_A_TIME)
-        return np.concatenate(
-            [class_probability(self.estimator, table[start : start + ROWS_AT_A_TIME], self.given) for start in starts]
-        )
+        parts = (table[start : start + ROWS_AT_A_TIME] for start in starts)
+        return np.concatenate([class_probability(self.estimator, part, self.given or self.name) for part in parts])
 
 
 def training_records(folder: Path, also_tested: bool, first: int | None = None) -> pandas.DataFrame:
@@ -152,7 +151,7 @@ def train_rule(training: TrainingSet) -> Rule:
     return fit_rule(healthy.table, healthy.record, healthy.axis)
 
 
-def train(training: TrainingSet, learning: Learning, estimator: Any | None = None, step: Say = ignore) -> list[Model]:
+def train(training: TrainingSet, learning: Learning, estimator: Any | None, step: Say = ignore) -> list[Model]:
     """The models that the options of `learning` ask for: our learners, or the user's `estimator` that they name.
 
     `step` is called with the name of each. Raises BadInput if one cannot learn from this.
@@ -160,7 +159,8 @@ def train(training: TrainingSet, learning: Learning, estimator: Any | None = Non
     if estimator is None:
         return train_models(training, learning.learner, step)
     step(f"learning: {learning.estimator}")
-    return [train_user_estimator(training, estimator, learning.takes_windows, learning.estimator or "")]
+    given = learning.estimator or estimator_name(estimator)
+    return [train_user_estimator(training, estimator, learning.takes_windows, given)]
 
 
 def train_models(training: TrainingSet, learner: str, step: Say = ignore) -> list[Model]:
@@ -190,22 +190,21 @@ def copy_of(estimator: Any, given: str) -> Any:
     """An unfitted copy of the user's estimator; raises BadInput, which names it as `given`, if it cannot be copied."""
     from sklearn.base import clone
 
-    with user_code(given or estimator_name(estimator), "it cannot be copied"):
+    with user_code(given, "it cannot be copied"):
         return clone(estimator, safe=False)
 
 
-def train_user_estimator(training: TrainingSet, estimator: Any, takes_windows: bool, given: str = "") -> Model:
+def train_user_estimator(training: TrainingSet, estimator: Any, takes_windows: bool, given: str) -> Model:
     """The user's estimator, fitted if it can be; its spalls are called at even odds. `given` is its name in messages.
 
     Raises BadInput if it cannot be fitted, or answers anything but our classes to the first rows.
     """
-    name = estimator_name(estimator)
     if hasattr(estimator, "fit"):
         table, classes = training.rows.table, training.classes
-        with user_code(given or name, "it failed to learn"):
+        with user_code(given, "it failed to learn"):
             # Scaled in place, rows would be others where they are looked at next; raw windows cannot be written to.
             estimator.fit(table if takes_windows else table.copy(), classes.copy())
-    model = Model(name, estimator, EVEN, takes_windows, given)
+    model = Model(estimator_name(estimator), estimator, EVEN, takes_windows, given)
     if len(training.rows):
         model.probability(training.rows.table[:ROWS_TO_TRY])
     return model

@@ -12,6 +12,7 @@ from datagen.errors import BadInput
 from labels.classifier.classes import CLASSES
 
 ROWS = np.zeros((3, 2))
+NAME = "own:Estimator"
 
 
 class Guesser:
@@ -47,7 +48,7 @@ def training():
 
 
 def test_probabilities_are_sorted_by_the_names_of_the_classes():
-    found = train_user_estimator(training(), Guesser(), False).probability(ROWS)
+    found = train_user_estimator(training(), Guesser(), False, NAME).probability(ROWS)
     assert found[0, CLASSES.index("line outer")] == pytest.approx(2.0 / 3.0)
     assert found[0, CLASSES.index("extended inner")] == 0.0
 
@@ -56,18 +57,20 @@ def test_columns_that_an_estimator_sorts_by_name_come_in_the_order_of_the_classe
     guesser = Guesser().fit(None, np.repeat(["line outer", "healthy", "extended inner"], (5, 3, 2)))
     assert guesser.classes_.tolist() == ["extended inner", "healthy", "line outer"]
     # Healthy, line outer, line inner, extended outer, extended inner.
-    np.testing.assert_allclose(class_probability(guesser, ROWS), np.tile([0.3, 0.5, 0.0, 0.0, 0.2], (3, 1)), rtol=1e-12)
+    np.testing.assert_allclose(
+        class_probability(guesser, ROWS, NAME), np.tile([0.3, 0.5, 0.0, 0.0, 0.2], (3, 1)), rtol=1e-12
+    )
 
 
 def test_names_and_probabilities_of_a_function_are_taken_as_they_are():
-    assert class_probability(lambda table: np.full(len(table), "line outer"), ROWS)[:, 1].tolist() == [1.0] * 3
+    assert class_probability(lambda table: np.full(len(table), "line outer"), ROWS, NAME)[:, 1].tolist() == [1.0] * 3
     said = np.tile([0.2, 0.1, 0.3, 0.4, 0.0], (3, 1))
-    np.testing.assert_allclose(class_probability(lambda table: said, ROWS), said)
+    np.testing.assert_allclose(class_probability(lambda table: said, ROWS, NAME), said)
 
 
 def test_probabilities_that_were_rounded_are_brought_between_0_and_1():
     said = np.tile([1.0005, -0.0005, 0.0, 0.0, 0.0], (3, 1))
-    assert class_probability(lambda table: said, ROWS).tolist() == [[1.0, 0.0, 0.0, 0.0, 0.0]] * 3
+    assert class_probability(lambda table: said, ROWS, NAME).tolist() == [[1.0, 0.0, 0.0, 0.0, 0.0]] * 3
 
 
 @pytest.mark.parametrize(
@@ -93,18 +96,18 @@ def test_probabilities_that_were_rounded_are_brought_between_0_and_1():
 )
 def test_what_is_no_answer_is_refused_with_what_would_be(said):
     with pytest.raises(BadInput, match=r"--estimator.*line outer"):
-        class_probability(lambda table: said, ROWS)
+        class_probability(lambda table: said, ROWS, NAME)
 
 
 def test_an_estimator_that_fails_or_knows_other_classes_is_refused_before_it_is_scored():
     with pytest.raises(BadInput, match=r"failed to learn: ArithmeticError: too hard \(.*test_answers.py, line \d+\)"):
-        train_user_estimator(training(), Unfit(), False)
+        train_user_estimator(training(), Unfit(), False, NAME)
     with pytest.raises(BadInput, match="none of ours: none;"):
-        train_user_estimator(training(), Named(), False)
+        train_user_estimator(training(), Named(), False, NAME)
     with pytest.raises(
         BadInput, match=r"failed to answer: ZeroDivisionError.*--estimator|--estimator.*ZeroDivisionError"
     ):
-        class_probability(lambda table: 1 / 0, ROWS)
+        class_probability(lambda table: 1 / 0, ROWS, NAME)
 
 
 class Doubled:
@@ -118,7 +121,7 @@ class Doubled:
 
 def test_a_class_in_two_columns_is_refused():
     with pytest.raises(BadInput, match="its classes_ name a class twice"):
-        class_probability(Doubled(), ROWS)
+        class_probability(Doubled(), ROWS, NAME)
 
 
 class Word(Enum):
@@ -131,7 +134,7 @@ class Word(Enum):
 
 
 def test_names_that_read_like_those_of_classes_are_taken_for_them():
-    found = class_probability(lambda table: [Word.OUTER] * len(table), ROWS)
+    found = class_probability(lambda table: [Word.OUTER] * len(table), ROWS, NAME)
     assert found[:, CLASSES.index("line outer")].tolist() == [1.0] * 3
 
 
@@ -151,6 +154,6 @@ class InPlace(Guesser):
 def test_what_an_estimator_overwrites_is_a_copy():
     given = training()
     before = given.rows.table.copy(), given.classes.copy()
-    train_user_estimator(given, InPlace(), False).probability(given.rows.table)
+    train_user_estimator(given, InPlace(), False, NAME).probability(given.rows.table)
     np.testing.assert_array_equal(given.rows.table, before[0])
     assert given.classes.tolist() == before[1].tolist()

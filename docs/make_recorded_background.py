@@ -9,14 +9,11 @@ at that same ratio. OUT gets the corpora and reports; TEST are the corpora to sc
 from __future__ import annotations
 
 import argparse
-import tomllib
 from copy import deepcopy
 from pathlib import Path
 from typing import Any
 
-from make_ablation import generated, report
-
-from datagen.recipes.recipe_files import find_recipe
+from transfer_runs import generated, report, transfer_recipe
 
 RATIO_DB = {"uniform": [-15, 25]}
 DURATIONS = {"choice": [0.4, 0.9]}
@@ -57,7 +54,7 @@ def with_recording(recipe: dict[str, Any], file: Path, rate: float, channels: li
 
 def main(out: Path, records: int, file: Path, rate: float, channels: list[str], tests: list[str]) -> None:
     """Make the three corpora and their reports; ValueError, before anything is made, as `with_recording` says."""
-    recipe = at_rate(tomllib.loads(find_recipe("transfer").read_text(encoding="utf-8")), rate)
+    recipe = at_rate(transfer_recipe(), rate)
     recipe["part"][0]["records"] = records
     at_ratio, recorded = deepcopy(recipe), deepcopy(recipe)
     at_ratio["part"][0]["background"]["snr_db"] = RATIO_DB

@@ -23,6 +23,7 @@ from datagen.drawing.style import (
     png_of,
     same_height,
 )
+from datagen.drawing.time_panels import shade_passes
 from labels.envelope import band_envelope, default_band, squared_envelope_spectrum
 from labels.truth import PassTable, ball_passes
 from physics.angular_speed import in_hertz
@@ -167,9 +168,7 @@ def _draw_acceleration(axes: Axes, state: Column) -> None:
     label = "with background" if visible else None
     axes.plot(time, state.acceleration[part], color=GREY, linewidth=0.6, label=label)
     axes.plot(time, state.trace.acceleration[part, 1], color=BLUE, linewidth=0.7, label="clean")
-    table = state.passes
-    for entry, leave in zip(table.entry_time, table.exit_time, strict=True):
-        axes.axvspan((entry - start) * 1e3, (leave - start) * 1e3, color=ORANGE, alpha=0.22, linewidth=0, zorder=0)
+    shade_passes(axes, state.passes, start)
     limit = 1.15 * float(np.abs(state.acceleration[part]).max())
     axes.set(xlim=(0.0, width * 1e3), ylim=(-limit, limit), xlabel="time (ms); shaded: a ball in the spall, dark: two")
     faint_grid(axes)

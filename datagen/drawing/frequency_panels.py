@@ -105,11 +105,15 @@ def _mark_families(
         on_panel = [target for target in targets if target < top]
         heights = line_heights(frequency, amplitude, on_panel, portrait.frequencies["FTF"], peaks=number > 0)
         heights = [line for line in heights if line[1] > least]
-        axes.plot(
-            [line[0] for line in heights], [line[1] for line in heights], marker, color=colour,
-            label=name if heights or number == 0 else None, linestyle="", markersize=6, markerfacecolor="none",
-            markeredgewidth=1.3, clip_on=False,
-        )  # fmt: skip
+        mark_lines(axes, heights, marker, colour, name if heights or number == 0 else None)
+
+
+def mark_lines(axes: Axes, lines: list[tuple[float, float]], marker: str, colour: str, name: str | None) -> None:
+    """An open mark on each of the `lines` (frequency, Hz, and height); `name` is their legend (None: no entry)."""
+    axes.plot(
+        [frequency for frequency, _ in lines], [height for _, height in lines], marker, color=colour, label=name,
+        linestyle="", markersize=6, markerfacecolor="none", markeredgewidth=1.3, clip_on=False,
+    )  # fmt: skip
 
 
 def _orders_on_top(axes: Axes, shaft: float) -> None:

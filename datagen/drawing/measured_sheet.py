@@ -9,7 +9,15 @@ from matplotlib.figure import Figure
 
 from datagen.counts import digits
 from datagen.drawing.decibel_panel import draw_decibels
-from datagen.drawing.frequency_panels import HARMONICS, above, decades, draw_spectrum, envelope_end, line_heights
+from datagen.drawing.frequency_panels import (
+    HARMONICS,
+    above,
+    decades,
+    draw_spectrum,
+    envelope_end,
+    line_heights,
+    mark_lines,
+)
 from datagen.drawing.measured_portrait import MeasuredPortrait
 from datagen.drawing.sheet import DPI
 from datagen.drawing.style import (
@@ -154,11 +162,7 @@ def draw_expected_lines(axes: Axes, portrait: MeasuredPortrait) -> None:
         count = SHAFT_HARMONICS if name == "shaft" else HARMONICS
         harmonics = [k * line for k in range(1, count + 1) if k * line < top]
         heights = line_heights(frequency, amplitude, harmonics, line)
-        axes.plot(
-            [place for place, _ in heights], [height for _, height in heights], marker, color=colour,
-            label=f"{name} {line:.4g} Hz", linestyle="", markersize=6, markerfacecolor="none", markeredgewidth=1.3,
-            clip_on=False,
-        )  # fmt: skip
+        mark_lines(axes, heights, marker, colour, f"{name} {line:.4g} Hz")
     turned = portrait.shaft_angle is not None
     words = "orders of the shaft times its mean speed (Hz)" if turned else "frequency (Hz)"
     axes.set(xlim=(0.0, top), ylim=limits, xlabel=words, ylabel="(m/s²)²")

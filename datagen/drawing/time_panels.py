@@ -11,6 +11,7 @@ from datagen.drawing.decibel_panel import draw_decibels, frequencies_along_y, ma
 from datagen.drawing.portrait import Portrait
 from datagen.drawing.style import BLUE, GREEN, GREY, INK, ORANGE, PALE, VERMILLION, faint_grid, outside_legend
 from labels.spectrogram import spectrogram
+from labels.truth import PassTable
 from physics.arrays import Array
 from physics.modes import modes
 from physics.outcome import StaticOutcome
@@ -96,6 +97,12 @@ def draw_passes(axes: Axes, portrait: Portrait) -> None:
     if shown.size == 0:
         words = "no ball passes a spall in this time" if portrait.scene.spalls else "no defect to pass"
         axes.text(0.5, 0.5, words, transform=axes.transAxes, ha="center", va="center", color=GREY)
+
+
+def shade_passes(axes: Axes, passes: PassTable, start: float) -> None:
+    """The times in which a ball is in a spall, shaded on an axis in ms from `start` (s) on."""
+    for entry, leave in zip(passes.entry_time, passes.exit_time, strict=True):
+        axes.axvspan((entry - start) * 1e3, (leave - start) * 1e3, color=ORANGE, alpha=0.22, linewidth=0, zorder=0)
 
 
 def free_lanes(entry: NDArray[np.float64], leave: NDArray[np.float64]) -> list[int]:

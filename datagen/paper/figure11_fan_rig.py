@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datagen.drawing.decibel_panel import draw_decibels, frequencies_along_y, mark_frequencies
-from datagen.drawing.style import GREY, INK, LINE, ORANGE, PURPLE, faint_grid, with_panels
+from datagen.drawing.style import GREY, INK, LINE, PURPLE, faint_grid, with_panels
+from datagen.drawing.time_panels import shade_passes
 from datagen.paper.chapter import Chapter, Row, beside, only_ours
 from datagen.paper.panels import cursor, heading, letter, power_decibel
 from datagen.paper.scenes import ANALYSED, LEAD, RATE, SHOWN_SEED, bpfo_hz, machine, scene, shaft_hz
@@ -208,9 +209,7 @@ def _draw_trace(axes: Axes, found: Recording, start: float, stop: float) -> None
     part = slice(int(start * RATE), int(stop * RATE) + 1)
     time = (np.arange(part.start, part.stop) / RATE - start) * 1e3
     axes.plot(time, found.acceleration[part], color=LINE, linewidth=0.7)
-    table = found.passes
-    for entry, leave in zip(table.entry_time, table.exit_time, strict=True):
-        axes.axvspan((entry - start) * 1e3, (leave - start) * 1e3, color=ORANGE, alpha=0.22, linewidth=0, zorder=0)
+    shade_passes(axes, found.passes, start)
     axes.set(xlim=(0.0, (stop - start) * 1e3), ylabel="m/s²", xlabel="time (ms)")
     faint_grid(axes)
 

@@ -12,7 +12,15 @@ from numpy.typing import NDArray
 from datagen.drawing.style import EXTENDED, GREY, HEALTHY, LINE, PALE, PURPLE, faint_grid, with_panels
 from datagen.paper.chapter import Chapter, Row, beside, only_ours
 from datagen.paper.panels import heading, legend_below, letter
-from datagen.paper.scenes import SHOWN_SEED, ball_angles, machine, reference_extended_spall, scene, wavy_extended_spall
+from datagen.paper.scenes import (
+    SHOWN_SEED,
+    ball_angles,
+    half_arc,
+    machine,
+    reference_extended_spall,
+    scene,
+    wavy_extended_spall,
+)
 from physics.arrays import Array
 from physics.paths.profile import race_depth
 from physics.reference_scenes import BOTTOM, line_spall
@@ -72,11 +80,6 @@ def distribution(*spalls: Spall) -> Distribution:
     inside = np.sum(np.abs(place[:, 0] - CENTRE) <= half_arc(of), axis=1)
     vertical = -np.sum(load * np.sin(np.radians(place)), axis=(1, 2))
     return Distribution(of, grid, np.array(on_grid), inside, vertical)
-
-
-def half_arc(of: Scene) -> float:
-    """Half the arc of the scene's spall, degrees; 0 of a healthy one."""
-    return math.degrees(of.spalls[0].extent) / 2.0 if of.spalls else 0.0
 
 
 def chapter() -> Chapter:

@@ -12,7 +12,15 @@ from numpy.typing import NDArray
 from datagen.drawing.style import EXTENDED, HEALTHY, INK, LINE, PURPLE, faint_grid, with_panels
 from datagen.paper.chapter import Chapter, Row, beside, only_ours
 from datagen.paper.panels import heading, legend_below, letter
-from datagen.paper.scenes import SHOWN_SEED, ball_angles, machine, reference_extended_spall, scene, wavy_extended_spall
+from datagen.paper.scenes import (
+    SHOWN_SEED,
+    ball_angles,
+    half_arc,
+    machine,
+    reference_extended_spall,
+    scene,
+    wavy_extended_spall,
+)
 from physics.arrays import Array
 from physics.reference_scenes import BOTTOM, line_spall
 from physics.spall import Spall
@@ -35,12 +43,12 @@ LEAST_APART, MOST_APART = 10.0, 300.0  # "one to two orders of magnitude"
 class Stiffness:
     """Stiffness `row` (2, S, 3) of each row at the angles `cage` (S,), degrees over 60°: kxx, kyy, kxy, MN/m.
 
-    `half` the arc of the spall, degrees; 0 of a healthy bearing.
+    `half_arc`: half the arc of the spall, degrees; 0 of a healthy bearing.
     """
 
     cage: Array
     row: Array
-    half: float
+    half_arc: float
 
     @property
     def total(self) -> Array:
@@ -51,7 +59,7 @@ class Stiffness:
     def ball_inside(self) -> NDArray[np.bool_]:
         """Where a ball of row 1 is between the edges of the spall (S,)."""
         spacing = math.degrees(machine("gearbox").bearing.spacing)
-        return np.abs((self.cage - math.degrees(BOTTOM) + spacing / 2.0) % spacing - spacing / 2.0) <= self.half
+        return np.abs((self.cage - math.degrees(BOTTOM) + spacing / 2.0) % spacing - spacing / 2.0) <= self.half_arc
 
 
 def stiffness(*spalls: Spall) -> Stiffness:
@@ -65,8 +73,7 @@ def stiffness(*spalls: Spall) -> Stiffness:
     angle = ball_angles(bearing, cage)
     c, s = np.cos(angle), np.sin(angle)
     parts = np.stack([np.sum(spring * product, axis=2) for product in (c * c, s * s, c * s)], axis=-1)
-    half = math.degrees(spalls[0].extent) / 2.0 if spalls else 0.0
-    return Stiffness(np.degrees(cage), parts.transpose(1, 0, 2) * 1e-6, half)
+    return Stiffness(np.degrees(cage), parts.transpose(1, 0, 2) * 1e-6, half_arc(of))
 
 
 def chapter() -> Chapter:

@@ -41,7 +41,10 @@ MOST_RECORDS = 0.8
 
 @dataclass(frozen=True)
 class Profile:
-    """One kind of extended spall: its family, what it is in words, and its draws (one scene a seed)."""
+    """One kind of extended spall: its family, what it is in words, and its draws (one scene a seed).
+
+    Of random waves also their mean depth and standard deviation (µm) and the shortest (mm); NaN of the others.
+    """
 
     family: str
     title: str
@@ -124,7 +127,7 @@ def smooth_profiles() -> Iterator[Profile]:
     for depth in SMOOTH_DEPTHS_UM:
         for taper in TAPERS_DEG:
             draws = (extended_spall(depth * MICRON, math.radians(taper)),) * 2
-            yield Profile("smooth", smooth_title(depth, taper), draws, depth_um=depth)
+            yield Profile("smooth", smooth_title(depth, taper), draws)
 
 
 def waved_profiles() -> Iterator[Profile]:
@@ -135,7 +138,7 @@ def waved_profiles() -> Iterator[Profile]:
             sizes = (depth * MICRON, amplitude * MICRON, spacing / waves)
             draws = tuple(waved_extended_spall(*sizes, phase) for phase in (0.0, math.pi / 2.0))
             title = f"waves of {math.degrees(spacing / waves):.3g}°, ±{amplitude:g} µm about {depth:g} µm"
-            yield Profile("wave", title, draws, depth_um=depth)
+            yield Profile("wave", title, draws)
 
 
 def rough_profiles(

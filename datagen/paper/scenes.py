@@ -70,6 +70,11 @@ def ball_angles(bearing: Bearing, cage: Array) -> Array:
     return np.asarray(of_row_1 + bearing.stagger * np.arange(bearing.rows)[:, None])
 
 
+def half_arc(of: Scene) -> float:
+    """Half the arc of the scene's spall, degrees; 0 of a healthy one."""
+    return math.degrees(of.spalls[0].extent) / 2.0 if of.spalls else 0.0
+
+
 def signal(of: Scene) -> Array:
     """Resonator acceleration along y (T,) of the last 1.4 s of a scene at 65 536 Hz, m/s²."""
     trace = simulate(of, RATE, FixedSteps(1))

@@ -14,7 +14,7 @@ from itertools import islice
 from pathlib import Path
 from typing import IO
 
-from datagen.errors import BadInput
+from datagen.errors import BadInput, at_line
 
 BLANKS = " "
 UTF_8 = "utf-8"
@@ -96,5 +96,5 @@ def _parsed(lines: Iterator[str], delimiter: str, path: Path, skipped: int) -> I
         except StopIteration:
             return
         except csv.Error as problem:
-            raise BadInput(f"not a row of a CSV table: {problem}", file=f"{path}, line {skipped + first}") from None
+            raise BadInput(f"not a row of a CSV table: {problem}", file=at_line(path, skipped + first)) from None
         yield first, cells

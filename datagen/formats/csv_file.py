@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from datagen.errors import BadInput
+from datagen.errors import BadInput, at_line
 from datagen.files.csv_rows import BLANKS, BROKEN, NotText, Row, open_text, read_csv_rows
 from datagen.files.number_texts import may_be_parted, number
 from datagen.formats.csv_hints import (
@@ -223,7 +223,7 @@ def _names(path: Path, head: Row, layout: CsvLayout, width: int) -> list[str]:
     twice = next((name for name in names if name and names.count(name) > 1), None)
     if twice is not None:
         raise BadInput(
-            "this column occurs twice", file=f"{path}, line {head[0]}", field=twice,
+            "this column occurs twice", file=at_line(path, head[0]), field=twice,
             allowed='different names, or csv = {header = false, skip_lines = …}, which calls the columns "1", "2", …',
         )  # fmt: skip
     return names
@@ -255,7 +255,7 @@ def _columns(path: Path, layout: CsvLayout, rows: list[Row]) -> Columns:
             hint = delimiter_hint(row, rows[len(rows) // 2][1], layout) if len(names) == 1 else ""
             hint = hint or titled_hint(rows, layout)
             problem = f"{len(row)} cells, but the table has {len(names)} columns{hint or above_hint(whole, layout)}"
-            raise BadInput(problem, file=f"{path}, line {line}", allowed="" if hint else ROWS_ALIKE)
+            raise BadInput(problem, file=at_line(path, line), allowed="" if hint else ROWS_ALIKE)
     columns = {name: _numbers([row[place] for _, row in rows], layout.decimal) for place, name in enumerate(names)}
     odd: dict[str, Cell] = {}
     worded: dict[str, Cell] = {}

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from datagen.errors import BadInput
+from datagen.errors import BadInput, at_line
 from datagen.files.csv_rows import BLANKS, Row, read_csv_rows
 from datagen.formats.csv_layout import CsvLayout
 from physics.arrays import Array
@@ -42,7 +42,7 @@ def refuse_split_numbers(path: Path, line: int, row: list[str], layout: CsvLayou
             raise BadInput(
                 "these commas seem to be decimal signs"
                 f'; did you mean csv = {{delimiter = {json.dumps(sign)}, decimal = ","}}?',
-                file=f"{path}, line {line}", field="csv.delimiter", value=",",
+                file=at_line(path, line), field="csv.delimiter", value=",",
             )  # fmt: skip
 
 
@@ -59,7 +59,7 @@ def refuse_halves(path: Path, layout: CsvLayout) -> None:
     if all(column[0].isdigit() and any(map(FRACTION.fullmatch, column)) for column in fractions):
         raise BadInput(
             f"these commas seem to be decimal signs{ONE_COLUMN if width == 2 else ''}",
-            file=f"{path}, line {rows[0][0]}",
+            file=at_line(path, rows[0][0]),
             field="csv.delimiter",
             value=",",
             allowed="" if width == 2 else "another delimiter than the decimal sign, in the file itself",

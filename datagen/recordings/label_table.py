@@ -10,7 +10,7 @@ from typing import Any, get_args
 
 from pydantic import ValidationError
 
-from datagen.errors import BadInput, unreadable
+from datagen.errors import BadInput, at_line, unreadable
 from datagen.files.csv_rows import Row, read_csv_rows
 from datagen.files.number_texts import may_be_parted
 from datagen.recordings.settings import RecordingSettings
@@ -51,11 +51,11 @@ def read_label_table(path: Path, note_columns: tuple[str, ...]) -> list[TableRow
         raise BadInput("the table has no rows", file=str(path))
     first, heads = rows[0]
     header = [cell.strip() for cell in heads]
-    _check_header(header, note_columns, f"{path}, line {first}")
+    _check_header(header, note_columns, at_line(path, first))
     decimal = "." if delimiter == "," else ","
     if decimal == ",":
         _refuse_two_decimals(header, rows[1:], path)
-    return [_row(header, cells, note_columns, f"{path}, line {line}", decimal) for line, cells in rows[1:]]
+    return [_row(header, cells, note_columns, at_line(path, line), decimal) for line, cells in rows[1:]]
 
 
 def _delimiter(path: Path) -> str:
@@ -96,7 +96,7 @@ def _refuse_two_decimals(header: list[str], rows: list[Row], path: Path) -> None
         problem = "other numbers of this table have a point as decimal sign"
         raise BadInput(
             problem,
-            file=f"{path}, line {line}",
+            file=at_line(path, line),
             field=name,
             value=cell,
             allowed="numbers without signs between thousands",

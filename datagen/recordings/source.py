@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from datagen.errors import BadInput
+from datagen.errors import BadInput, at_line
 from datagen.formats.arrays import Arrays, NoVariable, choose, chosen
 from datagen.formats.csv_file import Columns
 from datagen.formats.placeholders import filled, place_without_ending
@@ -152,7 +152,7 @@ class Source:
             which = "the first is" if (line, text) == first else "one of them is"
             shown = json.dumps(text[:LONGEST_CELL], ensure_ascii=False)
             problem = f"{bad.size} of {size} cells are not finite numbers, {which} {shown}{self.arrays.hint}"
-            return BadInput(problem, file=f"{self.path}, line {line}", field=field, value=wish, allowed=allowed)
+            return BadInput(problem, file=at_line(self.path, line), field=field, value=wish, allowed=allowed)
         if size == 1:
             return self.refusal("is not a finite number", field, wish)
         problem = f"{bad.size} of {size} samples are not finite numbers, the first at sample {bad[0]} (from 0)"

@@ -40,26 +40,26 @@ class NumericVariables(dict[str, NDArray[Any]]):
 
     def add(self, name: str, array: NDArray[Any] | None) -> None:
         """Take an array of numbers or of texts by its name; None stands for anything else."""
-        numbers = None if array is None else as_numbers(array)
-        if numbers is None:
+        found = None if array is None else as_numbers(array)
+        if found is None or found.dtype.kind in TEXTS:
             self.unread.append(name)
             return
-        self[name] = numbers
-        if numbers is not array:
+        self[name] = found
+        if found is not array:
             self.told.add(name)
 
 
-def as_numbers(array: NDArray[Any]) -> NDArray[Any] | None:
-    """An array as it is, but of texts the finite numbers that they are; None if one of them is none."""
+def as_numbers(array: NDArray[Any]) -> NDArray[Any]:
+    """An array as it is, but of texts that are all finite numbers these."""
     if array.dtype.kind not in TEXTS:
         return array
     try:
         found = array.astype(np.float64)
     except ValueError:
-        return None
+        return array
     if any(map(may_be_parted, array.astype(np.str_).ravel().tolist())):
-        return None
-    return found if found.size and np.isfinite(found).all() else None
+        return array
+    return found if found.size and np.isfinite(found).all() else array
 
 
 class ReadWhenAsked(Mapping[str, NDArray[Any]]):

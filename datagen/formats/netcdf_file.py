@@ -74,9 +74,7 @@ def _attributes(held: Any, name: str, place: str) -> Iterator[tuple[str, Place]]
 
 
 def _attribute(held: Any, attribute: str) -> NDArray[Any]:
-    told = np.asarray(held.getncattr(attribute))
-    numbers = as_numbers(told)
-    return told if numbers is None else numbers
+    return as_numbers(np.asarray(held.getncattr(attribute)))
 
 
 def read_netcdf(path: Path) -> Arrays:

@@ -21,13 +21,11 @@ class _Members(ReadWhenAsked):
 
     def _read(self, name: str) -> NDArray[Any]:
         try:
-            value = np.asarray(self._file[name])
+            return as_numbers(np.asarray(self._file[name]))
         except Exception as problem:  # whatever the damaged bytes lead NumPy and zlib to
             if "allow_pickle" in str(problem):  # NumPy would have its own switch set, with which a file runs programs
                 raise _of_objects(f"its array {name}", self.path) from None
             raise BadInput(f"its array {name} cannot be read: {problem}", file=str(self.path)) from None
-        numbers = as_numbers(value)
-        return value if numbers is None else numbers
 
 
 def _of_objects(what: str, path: Path) -> BadInput:

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,25 +14,21 @@ if TYPE_CHECKING:
     import pandas
 
 
-def true_class(labels: Mapping[str, Any]) -> str:
-    """The class that a classifier learns from the record, or "unknown" where the labels do not say one of CLASSES."""
+def true_classes(table: pandas.DataFrame) -> NDArray[np.str_]:
+    """The class (R,) that a classifier learns from each record of a table of labels, or "unknown" where these do not
+    say one of CLASSES."""
+    return np.array([_class(*said) for said in zip(table["condition"], table["location"], strict=True)], dtype=np.str_)
+
+
+def _class(condition: str, location: str) -> str:
     try:
-        return joint_class(str(labels["condition"]), str(labels["location"]))
+        return joint_class(condition, location)
     except ValueError:
         return UNKNOWN
 
 
-def true_location(labels: Mapping[str, Any]) -> str:
-    """none, outer or inner; "unknown" for everything else (a faulty ball too), which is predicted but not scored."""
-    said = str(labels["location"])
-    return said if said in LOCATIONS else UNKNOWN
-
-
-def true_classes(table: pandas.DataFrame) -> NDArray[np.str_]:
-    """The `true_class` (R,) of each record of a table of labels."""
-    return np.array([true_class(labels) for _, labels in table.iterrows()], dtype=np.str_)
-
-
 def true_locations(table: pandas.DataFrame) -> NDArray[np.str_]:
-    """The `true_location` (R,) of each record of a table of labels."""
-    return np.array([true_location(labels) for _, labels in table.iterrows()], dtype=np.str_)
+    """none, outer or inner (R,) of each record of a table of labels; "unknown" for everything else (a faulty ball too),
+    which is predicted but not scored."""
+    said = table["location"].to_numpy(np.str_)
+    return np.where(np.isin(said, LOCATIONS), said, UNKNOWN)

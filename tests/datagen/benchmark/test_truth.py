@@ -5,7 +5,7 @@ from __future__ import annotations
 import pandas
 import pytest
 
-from datagen.benchmark.truth import true_class, true_classes, true_location, true_locations
+from datagen.benchmark.truth import true_classes, true_locations
 
 
 @pytest.mark.parametrize(
@@ -20,8 +20,8 @@ from datagen.benchmark.truth import true_class, true_classes, true_location, tru
 def test_what_is_no_class_of_ours_is_unknown_and_not_scored(
     condition: str, location: str, known_class: str, known_location: str
 ) -> None:
-    labels = {"condition": condition, "location": location}
-    assert (true_class(labels), true_location(labels)) == (known_class, known_location)
+    table = pandas.DataFrame({"condition": [condition], "location": [location]})
+    assert (true_classes(table).tolist(), true_locations(table).tolist()) == ([known_class], [known_location])
 
 
 def test_a_table_gives_those_of_its_records_in_order_and_an_empty_one_none() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -23,7 +24,7 @@ NAMES = (*REFERENCE_SCENES, *RIG_NAMES)
 SLOWEST, FASTEST = 0.01, 100.0
 MOST_SLIP = 100.0 * MOST_SLIP_DEVIATION  # %
 SLIP_SEED = 1
-FORM = re.compile(r"(?P<name>[^@~]*)(?:@(?P<times>[^@~]*))?(?:~(?P<slip>[^@~]*))?")
+FORM = re.compile(r"(?P<name>[^@~]*)(?:@(?P<times>[^@~]+))?(?:~(?P<slip>[^@~]+))?")
 
 
 @dataclass(frozen=True)
@@ -83,9 +84,8 @@ def _record_of(source: str, record: int) -> Subject:
 
 def _named(source: str) -> Subject:
     form = FORM.fullmatch(source)
-    times = number("1" if form is None else form["times"] or "1")
-    slip = number("nan" if form is None else form["slip"] or "0")
-    if form is None or not (SLOWEST <= times <= FASTEST and 0.0 <= slip <= MOST_SLIP) or source[-1] in "@~":
+    times, slip = (number(form["times"] or "1"), number(form["slip"] or "0")) if form else (math.nan, math.nan)
+    if form is None or not (SLOWEST <= times <= FASTEST and 0.0 <= slip <= MOST_SLIP):
         name = re.split("[@~]", source)[0]
         speeds, slips = f"{name}@{SLOWEST:g} to {name}@{FASTEST:g}", f"{name}~0 to {name}~{MOST_SLIP:g}"
         allowed = f"{speeds} (times its speed), {slips} (% slip), or both, as in {name}@3~1"

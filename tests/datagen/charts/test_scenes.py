@@ -37,8 +37,8 @@ def test_slip_is_given_after_a_tilde_and_one_percent_is_that_of_the_reference_sc
     np.testing.assert_allclose(knots[4], 4.0 * np.array(knots[1]), rtol=0.0, atol=5e-12)  # rounded to 1e-12 each
 
 
-@pytest.mark.parametrize("scene", ["G1@1_0", "G1~1_0"])
-def test_figures_with_a_sign_between_them_are_no_number(scene):
+@pytest.mark.parametrize("scene", ["G1@1_0", "G1~1_0", "G1@", "G1@3~", "G1@~1", "G1~1@3"])
+def test_what_is_no_number_behind_a_sign_is_refused(scene):
     with pytest.raises(BadInput, match=r"^SCENE = "):
         find_subject(scene)
 

@@ -78,18 +78,20 @@ class Prediction:
 
 def record_predictions(tested: Tested) -> list[Prediction]:
     """What was said of every record, in the order of the labels."""
+    labels = tested.chosen.labels
+    known = zip(labels["record"], labels["recording"], labels["bearing_id"], labels["location"], strict=True)
     return [
         Prediction(
-            record=int(row["record"]),
-            recording=str(row["recording"]),
-            bearing_id=str(row["bearing_id"]),
-            truth=str(row["location"]),
+            record=int(record),
+            recording=str(recording),
+            bearing_id=str(bearing),
+            truth=str(location),
             rejected=facts.reason,
             **facts.shown(),
             found_speed_rpm=None if facts.found_rpm is None else float(f"{facts.found_rpm:.6g}"),
             models={said.name: _answer(said, place) for said in tested.verdicts},
         )
-        for place, ((_, row), facts) in enumerate(zip(tested.chosen.labels.iterrows(), tested.facts, strict=True))
+        for place, ((record, recording, bearing, location), facts) in enumerate(zip(known, tested.facts, strict=True))
     ]
 
 

@@ -20,7 +20,7 @@ class Blend(BaseEstimator):
     goes on rising there.
     """
 
-    def __init__(self, parts: Sequence[Any] = ()) -> None:
+    def __init__(self, parts: Sequence[Any]) -> None:
         self.parts = parts
 
     def fit(self, X: Array, y: NDArray[Any]) -> Blend:

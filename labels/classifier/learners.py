@@ -1,4 +1,4 @@
-"""The three learners, each a scikit-learn pipeline with a fixed seed; docs/classifier_choices.md says why these."""
+"""The three learners, each made of scikit-learn's with a fixed seed; docs/classifier_choices.md says why these."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ SEED = 2014
 LEARNERS = ("forest", "logistic", "boosting")
 
 
-def learner(name: str, seed: int = SEED, signs: Sequence[int] | None = None) -> Any:
+def learner(name: str, signs: Sequence[int] | None = None) -> Any:
     """A fresh classifier with `fit` and `predict_proba`; ValueError for an unknown name.
 
     "forest" and "boosting" are half a logistic regression each (`Blend`). `signs` (F,) are 1 for features with
@@ -22,14 +22,14 @@ def learner(name: str, seed: int = SEED, signs: Sequence[int] | None = None) -> 
     from labels.classifier.blend import Blend
     from labels.classifier.signed_logistic import SignedLogistic
 
-    logistic = make_pipeline(StandardScaler(), SignedLogistic(0.05, signs))
+    logistic = make_pipeline(StandardScaler(), SignedLogistic(signs))
     if name == "logistic":
         return logistic
     if name == "forest":
         trees = ExtraTreesClassifier(
-            120, min_samples_leaf=3, max_features=0.4, class_weight="balanced", monotonic_cst=signs, random_state=seed
+            120, min_samples_leaf=3, max_features=0.4, class_weight="balanced", monotonic_cst=signs, random_state=SEED
         )
-        return make_pipeline(Blend((trees, logistic)))
+        return Blend((trees, logistic))
     if name == "boosting":
         directed = None if signs is None else [place for place, sign in enumerate(signs) if sign]
         steps = HistGradientBoostingClassifier(
@@ -42,9 +42,9 @@ def learner(name: str, seed: int = SEED, signs: Sequence[int] | None = None) -> 
             early_stopping=False,  # "auto" splits rows at random from 10 000 on, those of one bearing to both sides
             class_weight=None,  # calibration weighs the classes; to bin weighted rows takes most of a fit
             monotonic_cst=None if signs is None else [sign for sign in signs if sign],
-            random_state=seed,
+            random_state=SEED,
         )
-        return make_pipeline(Blend((steps if directed is None else _seeing(directed, steps), logistic)))
+        return Blend((steps if directed is None else _seeing(directed, steps), logistic))
     raise ValueError(f'learner = "{name}"; allowed: {", ".join(LEARNERS)}')
 
 

@@ -16,16 +16,16 @@ from labels.classifier.reliability import equal_priors
 from physics.arrays import Array
 
 MOST_STEPS = 2000
+C = 0.05  # half the sum of the squared coefficients over this is the penalty, as in scikit-learn
 
 
 class SignedLogistic(BaseEstimator):
-    """Two classes of equal weight, a quadratic penalty of strength 1 / C, and coefficients of the given `signs`.
+    """Two classes of equal weight, a quadratic penalty, and coefficients of the given `signs`.
 
     A sign of 1 keeps a feature's coefficient at 0 or above, −1 at 0 or below, 0 leaves it free (so does None for all).
     """
 
-    def __init__(self, C: float = 1.0, signs: Sequence[int] | None = None) -> None:
-        self.C = C
+    def __init__(self, signs: Sequence[int] | None = None) -> None:
         self.signs = signs
 
     def fit(self, X: Array, y: NDArray[Any]) -> SignedLogistic:
@@ -41,8 +41,8 @@ class SignedLogistic(BaseEstimator):
             margin = side * (table @ coefficients)
             slope = -side * weight * probability_of(-margin)
             shrunk = np.append(coefficients[:-1], 0.0)
-            value = float(weight @ np.logaddexp(0.0, -margin)) + 0.5 / self.C * float(shrunk @ shrunk)
-            return value, table.T @ slope + shrunk / self.C
+            value = float(weight @ np.logaddexp(0.0, -margin)) + 0.5 / C * float(shrunk @ shrunk)
+            return value, table.T @ slope + shrunk / C
 
         signs = [0] * (table.shape[1] - 1) if self.signs is None else list(self.signs)
         bounds = [(0.0 if sign > 0 else None, 0.0 if sign < 0 else None) for sign in (*signs, 0)]

@@ -11,7 +11,7 @@ from threadpoolctl import threadpool_limits
 
 from labels.classifier.alarm import fit_alarm
 from labels.classifier.classes import CLASSES, called
-from labels.classifier.learners import SEED, learner
+from labels.classifier.learners import learner
 from labels.classifier.rule import strengths
 from labels.classifier.stage import Stage
 from labels.features.modulation import COMPARED, LEADS
@@ -44,14 +44,12 @@ class SpallClassifier(ClassifierMixin, BaseEstimator):
     Spall or none, from the two races' line families in the envelopes, from impulsiveness, and from how long was looked;
     outer or inner race, from the families alone; line or extended, from all features. What belongs to the machine as
     much as to a spall (lines of the shaft, lines of the vibration itself) answers neither of the first two.
-    `alarm_` (an `Alarm`) is what at most `false_alarms` of the healthy records pass by their probability, of bearings
-    not learned from, and few by their lines alone.
+    `alarm_` (an `Alarm`) is what at most FALSE_ALARMS of the healthy records pass by their probability, of bearings not
+    learned from, and few by their lines alone.
     """
 
-    def __init__(self, kind: str = "forest", seed: int = SEED, false_alarms: float = FALSE_ALARMS) -> None:
+    def __init__(self, kind: str) -> None:
         self.kind = kind
-        self.seed = seed
-        self.false_alarms = false_alarms
 
     def fit(
         self,
@@ -84,7 +82,7 @@ class SpallClassifier(ClassifierMixin, BaseEstimator):
                 records[~faulty],
                 noisy[~faulty],
                 axes[~faulty],
-                self.false_alarms,
+                FALSE_ALARMS,
             )
             self._fit_to_faults(X[faulty], y[faulty].astype(str), groups[faulty], noisy[faulty])
         return self
@@ -117,7 +115,7 @@ class SpallClassifier(ClassifierMixin, BaseEstimator):
         return called(probability, (1.0 - probability[:, 0] > self.alarm_.at(X)) | by_lines)
 
     def _stage(self, answers: tuple[str, str], signs: tuple[int, ...] | None = None, divisions: int = 1) -> Stage:
-        return Stage(learner(self.kind, self.seed, signs), self.seed, divisions, answers)
+        return Stage(learner(self.kind, signs), answers, divisions)
 
 
 def _race_columns(table: Array) -> Array:

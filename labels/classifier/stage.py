@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from labels.classifier.learners import SEED
 from labels.classifier.log_odds import logit, probability_of
 from physics.arrays import Array
 
@@ -20,21 +21,12 @@ class Stage:
     `held_out` (N,) are its calibrated held-out probabilities, from the mean log odds of so many `divisions` into folds.
     """
 
-    def __init__(
-        self, estimator: Any, seed: int = 0, divisions: int = 1, answers: tuple[str, str] = ("no", "yes")
-    ) -> None:
+    def __init__(self, estimator: Any, answers: tuple[str, str], divisions: int) -> None:
         self.estimator = estimator
         self.answers = answers
-        self.seed = seed
         self.divisions = divisions
 
-    def fit(
-        self,
-        table: Array,
-        answer: NDArray[np.bool_],
-        groups: NDArray[Any],
-        noisy: NDArray[np.bool_] | None = None,
-    ) -> Stage:
+    def fit(self, table: Array, answer: NDArray[np.bool_], groups: NDArray[Any], noisy: NDArray[np.bool_]) -> Stage:
         """Learn the probability that `answer` (N,) is True from rows (N, F); no group of `groups` (N,) is both learned
         from and held out.
 
@@ -49,11 +41,11 @@ class Stage:
         if given[rarest] < 2:
             raise ValueError(f'"{rarest}" is on too few virtual bearings, {given[rarest]}; allowed: 2 or more')
         folds = min(FOLDS, given[rarest])
-        plain = np.ones(len(answer), dtype=bool) if noisy is None else ~noisy
+        plain = ~noisy
         if np.unique(answer[plain]).size < 2:
             missing = self.answers[int(not answer[plain].any())]
             raise ValueError(f'"{missing}" is on no record without added noise; allowed: 1 or more')
-        level = [logit(self._held_out(table, answer, groups, folds, self.seed + k)) for k in range(self.divisions)]
+        level = [logit(self._held_out(table, answer, groups, folds, SEED + k)) for k in range(self.divisions)]
         raw = probability_of(np.mean(level, axis=0))
         of_plain, share = answer[plain], answer[plain].mean()
         weight = np.where(of_plain, 1.0 / share, 1.0 / (1.0 - share))

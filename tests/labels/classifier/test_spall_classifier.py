@@ -10,7 +10,7 @@ from labels.classifier.classes import CLASSES, called, condition_probability, jo
 from labels.classifier.learners import LEARNERS, learner
 from labels.classifier.log_odds import logit
 from labels.classifier.reliability import calibration_error, equal_priors
-from labels.classifier.spall_classifier import RISING, SpallClassifier
+from labels.classifier.spall_classifier import FALSE_ALARMS, RISING, SpallClassifier
 from labels.classifier.stage import Stage
 from labels.features.table import FEATURE_NAMES
 
@@ -24,6 +24,11 @@ def made_up(size, seed, shift=3.0):
     table[:, FEATURE_NAMES.index("race_evidence")] += shift * np.char.endswith(classes, "outer")
     table[:, FEATURE_NAMES.index("kurtosis")] += shift * np.char.startswith(classes, "extended")
     return table, classes, np.arange(size) // 2
+
+
+def fitted_stage(estimator, table, answer, groups, noisy=None, divisions=1):
+    noisy = np.zeros(len(answer), dtype=bool) if noisy is None else noisy
+    return Stage(estimator, ("no", "yes"), divisions).fit(table, answer, groups, noisy)
 
 
 @pytest.fixture(scope="module")
@@ -49,20 +54,22 @@ def test_a_row_with_lines_higher_than_those_of_healthy_records_is_called_whateve
 @pytest.mark.parametrize("kind", LEARNERS)
 def test_every_learner_learns_what_is_there(kind):
     table, classes, groups = made_up(150, 1)
-    stage = Stage(learner(kind)).fit(table, classes != "healthy", groups)
+    stage = fitted_stage(learner(kind), table, classes != "healthy", groups)
     unseen, truth, _ = made_up(200, 2)
     # A shift of three standard deviations leaves 7 % errors at equal odds, if the feature were known beforehand.
     assert np.mean((stage.probability(unseen) > 0.5) == (truth != "healthy")) > 0.85
 
 
-def test_more_divisions_into_folds_make_held_out_probabilities_hang_less_on_the_seed():
+def test_more_divisions_into_folds_make_held_out_probabilities_hang_less_on_the_seed(monkeypatch):
     table, classes, groups = made_up(200, 3, shift=1.0)
 
     def spread(divisions):
-        stages = [
-            Stage(learner("logistic"), seed, divisions).fit(table, classes != "healthy", groups) for seed in range(6)
-        ]
-        return np.std([stage.held_out for stage in stages], axis=0).mean()
+        held_out = []
+        for seed in range(6):
+            monkeypatch.setattr("labels.classifier.stage.SEED", seed)
+            stage = fitted_stage(learner("logistic"), table, classes != "healthy", groups, divisions=divisions)
+            held_out.append(stage.held_out)
+        return np.std(held_out, axis=0).mean()
 
     # The mean of six draws scatters by 0.41 of one; the factor 0.7 leaves room for six seeds' own scatter.
     assert spread(6) < 0.7 * spread(1)
@@ -71,8 +78,7 @@ def test_more_divisions_into_folds_make_held_out_probabilities_hang_less_on_the_
 def test_boosting_holds_no_rows_back_however_many_there_are():
     # From 10 000 rows on scikit-learn would by itself stop early on a tenth drawn at random, bearings torn apart.
     rows = np.random.default_rng(5).standard_normal((10_100, 1))
-    (blend,) = (step for _, step in learner("boosting").steps)
-    trees = clone(blend.parts[0]).fit(rows, rows[:, 0] > 0.0)
+    trees = clone(learner("boosting").parts[0]).fit(rows, rows[:, 0] > 0.0)
     assert trees.n_iter_ == trees.max_iter
     assert trees.validation_score_.size == 0
 
@@ -131,14 +137,14 @@ def test_noise_in_which_nothing_is_seen_does_not_blur_what_is_said_without_it():
     unseen, truth, _ = made_up(4000, 8)
     wrong = []
     for marked in (None, noisy):
-        probability = Stage(learner("logistic")).fit(*given, marked).probability(unseen)
+        probability = fitted_stage(learner("logistic"), *given, marked).probability(unseen)
         weights = equal_priors(truth != "healthy")
         wrong.append(calibration_error(truth != "healthy", probability, weights))
     # 400 rows set a line of two coefficients to about a tenth; calibrated on noise too, it is far too careful.
     assert wrong[1] < 0.05 < 0.1 < wrong[0]
     for missing, hidden in (("no", classes == "healthy"), ("yes", classes != "healthy")):
         with pytest.raises(ValueError, match=f'"{missing}" is on no record without added noise'):
-            Stage(learner("logistic")).fit(table, classes != "healthy", groups, hidden)
+            fitted_stage(learner("logistic"), table, classes != "healthy", groups, hidden)
 
 
 @pytest.mark.parametrize("rare", ["healthy", "inner", "extended"])
@@ -176,13 +182,14 @@ def test_the_same_evidence_in_a_longer_record_never_makes_a_spall_likelier():
     assert np.all(model.predict_proba(longer)[:, 0] >= model.predict_proba(table)[:, 0] - 1e-12)  # up to rounding
 
 
-def test_more_false_alarms_are_made_where_more_are_allowed():
+def test_more_false_alarms_are_made_where_more_are_allowed(monkeypatch):
     table, classes, groups = made_up(400, 1)
-    strict, lenient = (
-        SpallClassifier("logistic", false_alarms=share).fit(table, classes, groups) for share in (0.02, 0.4)
-    )
     unseen, truth, _ = made_up(2000, 3)
-    called = [np.mean(model.predict(unseen[truth == "healthy"]) != "healthy") for model in (strict, lenient)]
+    called = []
+    for share in (0.02, 0.4):
+        monkeypatch.setattr("labels.classifier.spall_classifier.FALSE_ALARMS", share)
+        model = SpallClassifier("logistic").fit(table, classes, groups)
+        called.append(np.mean(model.predict(unseen[truth == "healthy"]) != "healthy"))
     assert called[1] > called[0] + 0.05  # 2 and, where nothing tells clear records from noise, 20 % of 80 rows set it
 
 
@@ -190,7 +197,7 @@ def test_the_alarm_is_set_on_what_is_said_of_bearings_that_were_not_learned_from
     """A tree that knows every row by heart is sure of each of them, and wrong of one in some others."""
     by_heart = DecisionTreeClassifier(random_state=0)
     monkeypatch.setattr("labels.classifier.spall_classifier.learner", lambda *_: by_heart)
-    model = SpallClassifier().fit(*made_up(400, 1, shift=1.5))
+    model = SpallClassifier("forest").fit(*made_up(400, 1, shift=1.5))
     unseen, truth, _ = made_up(2000, 3, shift=1.5)
     healthy = unseen[truth == "healthy"]
     assert np.mean(model.predict_proba(healthy)[:, 0] < 0.5) > 0.15
@@ -207,12 +214,12 @@ def test_the_alarm_is_set_on_healthy_rows_with_their_records_noise_and_axes(monk
     monkeypatch.setattr("labels.classifier.spall_classifier.fit_alarm", kept)
     table, classes, groups = made_up(200, 1)
     records, noisy, axes = np.arange(200) // 4 + 7, np.arange(200) % 3 == 1, np.arange(200) % 7
-    model = SpallClassifier("logistic", false_alarms=0.07).fit(table, classes, groups, records, noisy, axes)
+    model = SpallClassifier("logistic").fit(table, classes, groups, records, noisy, axes)
     healthy = classes == "healthy"
     expected = (model.spall_.held_out, table, records, noisy, axes)
     for found, every in zip(given[:5], expected, strict=True):
         np.testing.assert_array_equal(found, every[healthy])
-    assert given[5] == 0.07
+    assert given[5] == FALSE_ALARMS
 
 
 def test_noise_blurs_no_answer_of_the_three():
@@ -235,9 +242,9 @@ def test_noise_blurs_no_answer_of_the_three():
 
 
 def test_two_bearings_of_each_answer_are_enough():
-    table, classes, _ = made_up(100, 1)
+    table, classes, _ = made_up(200, 1)
     faulty = classes != "healthy"
-    stage = Stage(learner("logistic")).fit(table, faulty, 2 * faulty + np.arange(100) // 5 % 2)
+    stage = fitted_stage(learner("logistic"), table, faulty, 2 * faulty + np.arange(200) // 5 % 2)
     assert np.mean((stage.held_out > 0.5) == faulty) > 0.7
 
 
@@ -246,5 +253,5 @@ def test_what_is_held_out_comes_from_no_bearing_that_was_learned_from():
     generator = np.random.default_rng(4)
     groups = np.repeat(np.arange(100), 2)
     table, answer = generator.standard_normal((100, 3))[groups], (generator.uniform(size=100) < 0.5)[groups]
-    stage = Stage(DecisionTreeClassifier(random_state=0)).fit(table, answer, groups)
+    stage = fitted_stage(DecisionTreeClassifier(random_state=0), table, answer, groups)
     assert np.mean((stage.held_out > 0.5) == answer) < 0.65  # half, and three times its scatter over 100 bearings

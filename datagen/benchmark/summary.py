@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from datagen.benchmark.model_scores import Calibration, ConditionScores, Confusion, MinusRule, Scores
 from datagen.benchmark.results import CorpusScores
 from datagen.benchmark.verdicts import REJECTED, RULE, Tested, Verdicts
-from labels.classifier.reliability import calibration_error, equal_priors, reliability
+from labels.classifier.reliability import calibration_error, reliability
 from labels.classifier.scores import (
     accuracy,
     accuracy_against,
@@ -150,16 +150,12 @@ def _calibration(tested: Tested, said: Verdicts) -> Calibration | None:
     if np.unique(spall).size < 2:
         return None
     error = bootstrap(
-        _equal_error, spall, probability, strata=spall, groups=tested.owner[known], draws=CALIBRATION_DRAWS
+        calibration_error, spall, probability, strata=spall, groups=tested.owner[known], draws=CALIBRATION_DRAWS
     )
     return Calibration(
-        reliability=reliability(spall, probability, equal_priors(spall)),
+        reliability=reliability(spall, probability),
         calibration_error=error,
     )
-
-
-def _equal_error(spall: NDArray[np.bool_], probability: Array) -> float:
-    return calibration_error(spall, probability, equal_priors(spall))
 
 
 def _condition(tested: Tested, said: Verdicts) -> ConditionScores | None:

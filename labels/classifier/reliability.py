@@ -18,17 +18,15 @@ def equal_priors(positive: NDArray[np.bool_]) -> Array:
     return np.asarray(0.5 * positive.size / np.where(positive, *count))
 
 
-def reliability(
-    positive: NDArray[np.bool_], probability: Array, weights: Array | None = None
-) -> dict[str, list[float]]:
-    """The reliability diagram of predicted probabilities (N,) in ten equal bins, a list with a value per bin.
+def reliability(positive: NDArray[np.bool_], probability: Array) -> dict[str, list[float]]:
+    """The reliability diagram of probabilities (N,) predicted under equal priors, in ten equal bins, a list with a
+    value per bin.
 
     `predicted` is the mean probability of the bin's records, `observed` the share of them that are `positive` (N,),
-    `records` their number and `weight` their total weight; empty bins are left out. `weights` (N,) are those of the
-    records, 1 if None. Probabilities under equal priors need those of `equal_priors`.
+    both with the weights of `equal_priors`; `records` is their number and `weight` their total weight. Empty bins are
+    left out.
     """
-    positive, probability = np.asarray(positive, dtype=bool), np.asarray(probability)
-    weights = np.ones(probability.size) if weights is None else np.asarray(weights)
+    positive, probability, weights = np.asarray(positive, dtype=bool), np.asarray(probability), equal_priors(positive)
     place = np.minimum((probability * BINS).astype(np.int64), BINS - 1)
     used = [place == bin_ for bin_ in range(BINS) if (place == bin_).any()]
     return {
@@ -39,10 +37,10 @@ def reliability(
     }
 
 
-def calibration_error(positive: NDArray[np.bool_], probability: Array, weights: Array | None = None) -> float:
+def calibration_error(positive: NDArray[np.bool_], probability: Array) -> float:
     """Expected calibration error: the weighted mean, over the bins of `reliability`, of how far the predicted
     probability is from the observed share of `positive` (N,) records; NaN without records."""
-    curve = reliability(positive, probability, weights)
+    curve = reliability(positive, probability)
     weight = np.array(curve["weight"])
     if weight.size == 0:
         return float("nan")

@@ -10,10 +10,11 @@ from numpy.typing import NDArray
 from datagen.sizing.committee import Committee, folds
 from datagen.sizing.training_rows import Trial
 from datagen.sizing.trial_columns import TrialColumns
+from labels.spall_size.columns.table import leading_rows
 from labels.spall_size.estimation.calibration import SMALLEST_SPREAD, Guess
-from labels.spall_size.estimation.measurement import leading_pairs, measure
+from labels.spall_size.estimation.measurement import measure
 from labels.spall_size.estimation.trees import Trees
-from labels.spall_size.events.leading import leading_order
+from labels.spall_size.events.leading import leading_view
 from physics.arrays import Array
 
 Bearings = NDArray[np.str_]
@@ -84,15 +85,14 @@ class FittedRank:
 
 def fit_rank(made: list[Trial], scores: list[Array], bearing: Bearings) -> FittedRank:
     """The rank of the pairs that lead by `scores`, (P,) of each of the trials `made` (N,) of these bearings (N,)."""
-    scored = list(zip(made, scores, strict=True))
-    leading = [leading_pairs(trial.evidence, score, trial.situation) for trial, score in scored]
-    rows = np.concatenate([pairs.rows for pairs in leading])
-    sizes = [pairs.lag.size for pairs in leading]
-    order = [leading_order(trial.evidence.pairs, score) for trial, score in scored]
-    quality = np.concatenate([trial.quality[leaders] for trial, leaders in zip(made, order, strict=True)])
+    leading = [leading_view(trial.evidence, score, trial.situation) for trial, score in zip(made, scores, strict=True)]
+    rows_of_each = [leading_rows(view) for view in leading]
+    rows = np.concatenate(rows_of_each)
+    sizes = [len(some) for some in rows_of_each]
+    quality = np.concatenate([trial.quality[view.order] for trial, view in zip(made, leading, strict=True)])
     everywhere = np.ones(quality.size, dtype=np.bool_)
     ranks = np.split(RANK.out_of_fold(rows, quality, everywhere, np.repeat(bearing, sizes)), np.cumsum(sizes)[:-1])
-    first = [measure(pairs, rank) for pairs, rank in zip(leading, ranks, strict=True)]
+    first = [measure(*of_trial) for of_trial in zip(leading, rows_of_each, ranks, strict=True)]
     return FittedRank(
         RANK.fit(rows, quality),
         np.array([pair.lag for pair in first]),

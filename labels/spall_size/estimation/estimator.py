@@ -8,10 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from labels.dead_sensor import live_axis
+from labels.spall_size.columns.table import leading_rows
 from labels.spall_size.estimation.calibration import Calibration, Judgement
 from labels.spall_size.estimation.gathering import hear
-from labels.spall_size.estimation.measurement import Measurement, leading_pairs, measure
+from labels.spall_size.estimation.measurement import Measurement, measure
 from labels.spall_size.events.evidence import Evidence
+from labels.spall_size.events.leading import leading_view
 from labels.spall_size.signal.alignment import LEAST_WEIGHT
 from labels.spall_size.situation import Situation
 from labels.spall_size.size_estimate import (
@@ -66,8 +68,9 @@ class SizeEstimator:
         """Size of the spall that gave `evidence`."""
         score = self.calibration.pair_score.predict(evidence.pairs.features)
         judgement = self.calibration.with_load if situation.load_known else self.calibration.blind
-        leading = leading_pairs(evidence, score, situation)
-        measured = measure(leading, judgement.rank.predict(leading.rows))
+        leading = leading_view(evidence, score, situation)
+        rows = leading_rows(leading)
+        measured = measure(leading, rows, judgement.rank.predict(rows))
         doubt = float(judgement.doubt.predict(measured.row[None])[0])
         trust = min(max(1.0 - doubt, 0.0), 1.0)
         if doubt > judgement.most:

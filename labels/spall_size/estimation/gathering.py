@@ -45,7 +45,6 @@ class Heard:
             rate=self.rate,
             deviation=float(np.std(self.signal)),
             unit=self.white.unit,
-            track=self.track,
             alignment=self.alignment,
             mean=mean,
             pairs=Pairs(view.entry, view.exit, view.lag, pair_rows(view)),

@@ -1,4 +1,4 @@
-"""What a record shows of a spall: its passes, their mean and the pairs of candidate events in it."""
+"""What a record shows of a spall: its passes lined up, their mean and the pairs of candidate events in it."""
 
 from __future__ import annotations
 
@@ -7,12 +7,11 @@ from dataclasses import dataclass
 from labels.spall_size.events.pairs import Pairs
 from labels.spall_size.signal.alignment import Alignment
 from labels.spall_size.signal.mean_pass import MeanPass
-from labels.spall_size.signal.pass_track import PassTrack
 
 
 @dataclass(frozen=True)
 class Evidence:
-    """What a record shows if its spall is on `race`: the passes, their mean and all pairs of candidates.
+    """What a record shows if its spall is on `race`: the passes lined up, their mean and all pairs of candidates.
 
     `rate` Hz; `deviation` is the standard deviation of the signal, `unit` what 1 in the prewhitened signal stands for,
     both in the unit of the signal.
@@ -22,7 +21,6 @@ class Evidence:
     rate: float
     deviation: float
     unit: float
-    track: PassTrack
     alignment: Alignment
     mean: MeanPass
     pairs: Pairs

@@ -1,4 +1,4 @@
-"""What the columns of leading pairs are computed from: the evidence of the record, and which of its pairs lead."""
+"""The pairs that lead by their score, and what their columns are computed from."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ DISTINCT = 0.05
 @dataclass(frozen=True)
 class LeadingView:
     """The `evidence` of a record, the `score` (P,) of all its pairs, what is known of its `situation`, and which pairs
-    lead, `order` (L,), the best first."""
+    lead, `order` (L,), LEADING of them at most, the best first."""
 
     evidence: Evidence
     score: Array
@@ -51,10 +51,15 @@ class LeadingView:
         # The tracked period stands for one ball spacing, whatever the stated speed and the slip were.
         return self.lag / self.evidence.mean.period * self.situation.bearing().spacing
 
-    @cached_property
+    @property
     def features(self) -> Array:
         """What is known (L, F) of these among all pairs, `table.PAIR_COLUMNS`."""
         return self.evidence.pairs.features[self.order].astype(np.float64)
+
+
+def leading_view(evidence: Evidence, score: Array, situation: Situation) -> LeadingView:
+    """What the columns of the pairs of `evidence` that lead by `score` (P,) are computed from."""
+    return LeadingView(evidence, score, situation, leading_order(evidence.pairs, score))
 
 
 def leading_order(pairs: Pairs, score: Array) -> NDArray[np.int64]:

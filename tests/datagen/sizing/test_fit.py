@@ -25,7 +25,6 @@ from datagen.sizing.training_rows import trials
 from datagen.sizing.trial_columns import TrialColumns
 from labels.spall_size.estimation.calibration import Calibration, Guess
 from labels.spall_size.estimation.estimator import SizeEstimator
-from labels.spall_size.estimation.measurement import LeadingPairs
 from labels.spall_size.size_estimate import SizeOutcome
 from physics.arrays import Array
 
@@ -223,18 +222,19 @@ class Watched:
 
 def test_pairs_are_ranked_by_what_was_learned_from_other_bearings(monkeypatch: pytest.MonkeyPatch) -> None:
     lags = {"a": [3.0, 5.0], "b": [7.0, 9.0, 11.0], "c": [13.0]}
-    leading = {
-        name: LeadingPairs(*(np.array(lag) for _ in range(4)), np.zeros((len(lag), 2))) for name, lag in lags.items()
-    }
-    monkeypatch.setattr(fit_stages, "leading_pairs", lambda evidence, *_: leading[evidence.name])
-    monkeypatch.setattr(fit_stages, "leading_order", lambda pairs, _: np.arange(pairs.size))
+    monkeypatch.setattr(fit_stages, "leading_view", lambda evidence, *_: evidence)
+    monkeypatch.setattr(fit_stages, "leading_rows", lambda view: np.zeros((view.lag.size, 2)))
     watched = Watched()
     monkeypatch.setattr(fit_stages, "RANK", watched)
     made: Any = [
         SimpleNamespace(
-            evidence=SimpleNamespace(name=name, pairs=np.array(lag)), situation=None, quality=np.arange(len(lag))
+            evidence=SimpleNamespace(
+                **dict.fromkeys(("entry", "exit", "lag", "lag_arc"), np.array(lag)), order=np.arange(len(lag))
+            ),
+            situation=None,
+            quality=np.arange(len(lag)),
         )
-        for name, lag in lags.items()
+        for lag in lags.values()
     ]
     found = fit_stages.fit_rank(made, [np.zeros(0)] * 3, np.array(list(lags)))
     assert watched.groups == ["a", "a", "b", "b", "b", "c"]

@@ -16,13 +16,12 @@ from labels.spall_size.columns.table import (
     leading_rows,
     pair_rows,
 )
-from labels.spall_size.estimation.measurement import leading_pairs, measure
+from labels.spall_size.estimation.measurement import measure
 from labels.spall_size.events.evidence import Evidence
-from labels.spall_size.events.leading import LEADING, LeadingView
+from labels.spall_size.events.leading import LEADING, leading_view
 from labels.spall_size.events.pairs import Pairs, RecordFacts, all_pairs
 from labels.spall_size.signal.alignment import Alignment
 from labels.spall_size.signal.mean_pass import MeanPass
-from labels.spall_size.signal.pass_track import PassTrack
 from labels.spall_size.situation import Situation
 
 PERIOD, ENTRY, EXIT, LAG = 400.0, -80.0, 0.0, 80.0
@@ -250,14 +249,14 @@ def evidence(features, lag, race="inner"):
     """Evidence of pairs that all end at the anchor, beside the known mean pass."""
     lag = np.asarray(lag, dtype=float)
     nothing = np.zeros(0)
-    return Evidence(race, 65536.0, 4.0, 0.5, PassTrack(nothing, 1.0, nothing, 1.5), Alignment(nothing, nothing),
+    return Evidence(race, 65536.0, 4.0, 0.5, Alignment(nothing, nothing),
                     known_pass(), Pairs(-lag, np.zeros(lag.size), lag, features))  # fmt: skip
 
 
 def leading(situation, lag, score, features=None):
     """Every column of the leading pairs by name."""
     known = np.zeros((len(lag), len(PAIR_COLUMNS))) if features is None else features
-    rows = leading_pairs(evidence(known, lag), np.array(score), situation).rows
+    rows = leading_rows(leading_view(evidence(known, lag), np.array(score), situation))
     names = LEADING_COLUMNS_WITH_LOAD if situation.load_known else LEADING_COLUMNS
     return dict(zip(names, rows.T, strict=True))
 
@@ -346,8 +345,8 @@ def test_load_tells_what_size_of_jump_to_expect():
 
 def test_the_chosen_pair_is_that_of_the_best_rank_and_knows_the_others():
     lag = [100.0, 110.0, 50.0]
-    given = leading_pairs(evidence(np.zeros((3, len(PAIR_COLUMNS))), lag), np.array([0.9, 0.8, 0.7]), BLIND)
-    chosen = measure(given, np.array([0.4, 0.5, 0.2]))
+    given = leading_view(evidence(np.zeros((3, len(PAIR_COLUMNS))), lag), np.array([0.9, 0.8, 0.7]), BLIND)
+    chosen = measure(given, leading_rows(given), np.array([0.4, 0.5, 0.2]))
     found = dict(zip(ROW_COLUMNS, chosen.row, strict=True))
     assert (chosen.entry, chosen.exit, chosen.lag) == (-110.0, 0.0, 110.0)
     assert chosen.lag_arc == pytest.approx(110.0 / PERIOD * 2.0 * math.pi / 12.0)
@@ -365,8 +364,9 @@ def test_the_chosen_pair_is_that_of_the_best_rank_and_knows_the_others():
 
 
 def test_a_pair_without_rival_has_a_rank_below_all_others():
-    given = leading_pairs(evidence(np.zeros((1, len(PAIR_COLUMNS))), [LAG]), np.array([0.9]), LOADED)
-    found = dict(zip(ROW_COLUMNS_WITH_LOAD, measure(given, np.array([0.4])).row, strict=True))
+    given = leading_view(evidence(np.zeros((1, len(PAIR_COLUMNS))), [LAG]), np.array([0.9]), LOADED)
+    chosen = measure(given, leading_rows(given), np.array([0.4]))
+    found = dict(zip(ROW_COLUMNS_WITH_LOAD, chosen.row, strict=True))
     assert (found["rival_rank"], found["rival_apart"]) == (-1.0, 0.0)
 
 
@@ -376,7 +376,7 @@ def test_no_two_columns_share_a_name(names):
 
 
 def test_rows_hold_their_columns_in_the_order_of_the_table():
-    view = LeadingView(evidence(np.ones((1, len(PAIR_COLUMNS))), [LAG]), np.array([0.25]), LOADED, np.array([0]))
+    view = leading_view(evidence(np.ones((1, len(PAIR_COLUMNS))), [LAG]), np.array([0.25]), LOADED)
     row = leading_rows(view)[0]
     assert row.size == len(LEADING_COLUMNS_WITH_LOAD)
     assert row[: len(PAIR_COLUMNS)].tolist() == [1.0] * len(PAIR_COLUMNS)

@@ -14,7 +14,6 @@ from labels.spall_size.events.evidence import Evidence
 from labels.spall_size.events.pairs import Pairs
 from labels.spall_size.signal.alignment import Alignment
 from labels.spall_size.signal.mean_pass import MeanPass
-from labels.spall_size.signal.pass_track import PassTrack
 from labels.spall_size.situation import Situation
 from labels.spall_size.size_estimate import SizeEstimate, SizeOutcome
 from physics.checks import InvalidParameter
@@ -46,8 +45,7 @@ def one_pair(entry, lag, race="outer"):
     mean = MeanPass(offset, np.ones((4, offset.size)), flat, flat, 1.0, flat, 1.0, 3.0, PERIOD)
     pairs = Pairs(np.array([entry]), np.array([entry + lag]), np.array([lag]), np.zeros((1, len(PAIR_COLUMNS))))
     place = np.array([200.0, 300.0, 400.0])
-    track = PassTrack(place / RATE, PERIOD / RATE, np.zeros(256), 1.0)
-    return Evidence(race, RATE, 1.0, 1.0, track, Alignment(place, np.array([1.0, 0.0, 0.5])), mean, pairs)
+    return Evidence(race, RATE, 1.0, 1.0, Alignment(place, np.array([1.0, 0.0, 0.5])), mean, pairs)
 
 
 def test_no_lag_is_longer_than_a_pass_and_no_spall_than_half_the_race(judging):
@@ -181,9 +179,7 @@ def test_passes_that_are_hardly_heard_have_no_event_times(judging):
 
 
 def test_the_arc_of_the_lag_is_its_share_of_the_mean_pass(judging):
-    evidence = one_pair(0.0, 20.0)
-    tracked = replace(evidence, track=replace(evidence.track, period=0.09))
-    assert judging(0.1, 1.0, 1.0).judge(tracked, GEARBOX).lag_arc == pytest.approx(math.radians(0.2 * 30.0))
+    assert judging(0.1, 1.0, 1.0).judge(one_pair(0.0, 20.0), GEARBOX).lag_arc == pytest.approx(math.radians(0.2 * 30.0))
 
 
 @pytest.mark.parametrize(

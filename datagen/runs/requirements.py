@@ -19,6 +19,7 @@ from datagen.runs.plan import PlannedShard, stored_bytes
 from datagen.runs.rates import against_rate, lowest_rate
 from datagen.scenarios.sampling import draw_scenario
 from datagen.scenarios.scenario import Scenario
+from datagen.settings.problems import dotted
 from datagen.settings.toml_lines import Location, place_in_file
 from physics.response.oversampling import oversampling
 
@@ -136,7 +137,7 @@ def _refusal(recipe: Recipe, location: Location, problem: str, value: object, al
     return BadInput(
         problem,
         file=place_in_file(recipe.source, location),
-        field=".".join(map(str, location)),
+        field=dotted(location),
         value=value,
         allowed=allowed,
     )

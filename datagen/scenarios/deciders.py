@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from datagen.recipes.defect_settings import Combination
     from datagen.recipes.recipe import Recipe
 
+Setting = tuple[Location, object]
 BALL_DIAMETERS = ("ball_diameter_mm", "ball_diameter_of_pitch", "ball_diameter")
 PITCH_DIAMETERS = ("pitch_diameter_mm", "pitch_diameter")
 RATED_LOADS = ("rated_load_n", "rated_load_of_static_rating")
@@ -62,27 +63,27 @@ DECIDERS: dict[str, tuple[str, ...]] = {
 }
 
 
-def deciders(recipe: Recipe, part: int, parameter: str, kind: Combination | None) -> list[tuple[Location, object]]:
+def deciders(recipe: Recipe, part: int, parameter: str, kind: Combination | None) -> list[Setting]:
     """The settings that decide the `parameter` in the part with that index: where each is, and its value as in TOML.
 
     The likeliest to be wrong comes first. If a `kind` is given, only those settings of spalls count that hold for it.
     Settings that the recipe leaves at their default are not found.
     """
-    names = DECIDERS.get(parameter)
-    found = [
-        (location, value)
-        for location, value in _said(recipe, part, kind)
-        if parameter and _decides(location[-1], parameter)
-    ]
-    return sorted(found, key=lambda setting: names.index(str(setting[0][-1])) if names else 0)
+    if not parameter:
+        return []
+    said, names = _said(recipe, part, kind), DECIDERS.get(parameter)
+    if names is None:
+        return [setting for setting in said if _name(setting).startswith(parameter)]
+    return sorted(
+        (setting for setting in said if _name(setting) in names), key=lambda setting: names.index(_name(setting))
+    )
 
 
-def _decides(name: str | int, parameter: str) -> bool:
-    names = DECIDERS.get(parameter)
-    return str(name) in names if names is not None else str(name).startswith(parameter)
+def _name(setting: Setting) -> str:
+    return str(setting[0][-1])
 
 
-def _said(recipe: Recipe, index: int, kind: Combination | None) -> Iterator[tuple[Location, object]]:
+def _said(recipe: Recipe, index: int, kind: Combination | None) -> Iterator[Setting]:
     """Every setting of a part that the recipe states, with those of the whole recipe that hold for it.
 
     Of its spalls, only what holds for the `kind`, if one is given.
@@ -96,13 +97,13 @@ def _said(recipe: Recipe, index: int, kind: Combination | None) -> Iterator[tupl
         yield from _settings(getattr(recipe, name), (name,))
 
 
-def _settings(table: BaseModel, place: Location) -> Iterator[tuple[Location, object]]:
+def _settings(table: BaseModel, place: Location) -> Iterator[Setting]:
     for name in type(table).model_fields:
         if name in table.model_fields_set:
             yield from _inside(getattr(table, name), (*place, name))
 
 
-def _inside(value: Any, place: Location) -> Iterator[tuple[Location, object]]:
+def _inside(value: Any, place: Location) -> Iterator[Setting]:
     if isinstance(value, BaseModel):
         yield from _settings(value, place)
     elif isinstance(value, tuple) and value and isinstance(value[0], BaseModel):

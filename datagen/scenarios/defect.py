@@ -24,13 +24,11 @@ DEFAULT_TAPER_SHARE = {"tukey": 0.1, "ball_path": 0.0, "table": 0.0}
 ROWS: dict[str, tuple[int, ...]] = {"1": (1,), "2": (2,), "both": (1, 2)}
 
 
-def draw_spalls(settings: DefectSettings | None, bearing: Bearing, load: float, draw: Draw) -> tuple[Spall, ...]:
+def draw_spalls(settings: DefectSettings, bearing: Bearing, load: float, draw: Draw) -> tuple[Spall, ...]:
     """Spalls of one record under `load` (N), which only sets the width of contact that smooths their roughness.
 
     Raises InvalidParameter if what was drawn is impossible; the caller draws again, with the same `draw.intended`.
     """
-    if settings is None:
-        return ()
     pick = draw.picker("defect")
     kind = draw.intended.settle((pick.word(settings.condition), pick.word(settings.race), pick.word(settings.profile)))
     if kind[0] == HEALTHY:

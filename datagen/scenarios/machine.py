@@ -80,7 +80,7 @@ def _first_possible(wanted: _Wanted) -> Machine:
             return _draw(replace(draw, attempt=attempt), tuple(redraws))
         except InvalidParameter as refused:
             redraws.append(Redraw("machine", attempt, refused.field, str(refused)))
-    raise given_up(draw.recipe, draw.recipe.part[draw.part], f"machine {wanted.number}", redraws, intended.kind)
+    raise given_up(draw.recipe, draw.part, f"machine {wanted.number}", redraws, intended.kind)
 
 
 def _draw(draw: Draw, redraws: tuple[Redraw, ...]) -> Machine:

@@ -14,24 +14,25 @@ from labels.schema import HEALTHY
 
 if TYPE_CHECKING:
     from datagen.recipes.defect_settings import Combination
-    from datagen.recipes.recipe import Part, Recipe
+    from datagen.recipes.recipe import Recipe
 
 MOST_ATTEMPTS = 200
 
 
-def given_up(recipe: Recipe, part: Part, what: str, redraws: list[Redraw], kind: Combination | None) -> BadInput:
-    """The error for a part that can hardly be drawn: it names the settings behind the last refusal, and the reason.
+def given_up(recipe: Recipe, part: int, what: str, redraws: list[Redraw], kind: Combination | None) -> BadInput:
+    """The error for the part with this index, which can hardly be drawn: it names the settings behind the last
+    refusal, and the reason.
 
     `what` is the record or machine, and `kind` what it was meant to be (condition, race and profile), if that was
     drawn. If the refusals had different reasons, it also says how often each parameter was refused.
     """
-    place: Location = ("part", recipe.part.index(part))
+    place: Location = ("part", part)
     last = redraws[-1]
-    decided_by = deciders(recipe, recipe.part.index(part), last.field, kind)
+    decided_by = deciders(recipe, part, last.field, kind)
     location, value = decided_by[0] if decided_by else (place, None)
     others = ", ".join(setting_text(dotted(where), said) for where, said in decided_by[1:])
     return BadInput(
-        f'{what} of part "{part.name}"{_as_meant(kind)}: {_tally(redraws)}'
+        f'{what} of part "{recipe.part[part].name}"{_as_meant(kind)}: {_tally(redraws)}'
         + (f" (this also follows from {others})" if others else ""),
         file=place_in_file(recipe.source, location),
         field=dotted(location),

@@ -35,7 +35,6 @@ def draw_scenario(recipe: Recipe, record: int) -> Scenario:
     """Scenario of `record` (0 ≤ record < recipe.count); BadInput if its part can hardly be drawn."""
     record = index(record)  # of numpy's whole numbers too, which JSON lacks
     place = recipe.place(record)
-    part = recipe.part[place.part]
     machine = draw_machine(recipe, place.part, place.machine, place.machine_in_part)
     redraws, intended = list(machine.redraws), IntendedKind()
     for attempt in range(MOST_ATTEMPTS):
@@ -44,7 +43,7 @@ def draw_scenario(recipe: Recipe, record: int) -> Scenario:
             return _draw(draw, machine, place, tuple(redraws))
         except InvalidParameter as refused:
             redraws.append(Redraw("record", attempt, refused.field, str(refused)))
-    raise given_up(recipe, part, f"record {record}", redraws, intended.kind)
+    raise given_up(recipe, place.part, f"record {record}", redraws, intended.kind)
 
 
 def _draw(draw: Draw, machine: Machine, place: Place, redraws: tuple[Redraw, ...]) -> Scenario:

@@ -93,7 +93,7 @@ def test_the_line_of_the_key_is_told_that_gave_the_last_impossible_value(tmp_pat
     with pytest.raises(InvalidParameter) as refused:
         REFUSED[key]()
     redraws = [Redraw("machine", k, refused.value.field, str(refused.value)) for k in range(MOST_ATTEMPTS)]
-    words = str(given_up(recipe, recipe.part[0], "machine 0", redraws, None))
+    words = str(given_up(recipe, 0, "machine 0", redraws, None))
     lines = path.read_text(encoding="utf-8").splitlines()
     line = 1 + next(k for k, text in enumerate(lines) if text.startswith(f"{key} ="))
     assert re.search(rf"try\.toml, line {line}: part\[1\]\.\S*\b{key} = ", words)
@@ -106,7 +106,7 @@ def words(tmp_path: Path, text: str, *refused: tuple[str, str], kind: Combinatio
     path.write_text('name = "try"\nseed = 1\n[signal]\nrate_hz = 65536\nduration_s = 0.1\n' + text, encoding="utf-8")
     recipe = load_recipe(str(path))
     redraws = [Redraw("record", attempt, field, reason) for attempt, (field, reason) in enumerate(refused)]
-    return str(given_up(recipe, recipe.part[0], "record 3", redraws, kind))
+    return str(given_up(recipe, 0, "record 3", redraws, kind))
 
 
 SPALLS = """[[part]]

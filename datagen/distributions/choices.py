@@ -12,14 +12,14 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from datagen.distributions.distribution import Distribution, DistributionError, Value, number, object_schema
+from datagen.distributions.distribution import DistributionError, Drawn, Value, number, object_schema
 from datagen.errors import value_text
 
 LONGEST_BLOCK = 1000
 
 
 @dataclass(frozen=True)
-class Choice(Distribution):
+class Choice(Drawn):
     """One of `options`, each with its share of the summed `weights` (equal when there are none)."""
 
     options: tuple[Value, ...]
@@ -28,7 +28,7 @@ class Choice(Distribution):
     weight_type: ClassVar[str] = "number"
 
     @classmethod
-    def from_table(cls, table: Mapping[str, Any]) -> Distribution:
+    def from_table(cls, table: Mapping[str, Any]) -> Choice:
         name = cls.keys[0]
         options, weights = table[name], table.get("weights", [])
         if not isinstance(options, list | tuple) or not options:

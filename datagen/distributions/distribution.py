@@ -18,19 +18,7 @@ class DistributionError(ValueError):
 
 
 class Distribution(ABC):
-    """A rule that turns a number in [0, 1) into a value; `keys` are its keys in a recipe, the first its name."""
-
-    keys: ClassVar[tuple[str, ...]]
-
-    @classmethod
-    @abstractmethod
-    def from_table(cls, table: Mapping[str, Any]) -> Distribution:
-        """The distribution an inline table describes; raises DistributionError."""
-
-    @classmethod
-    @abstractmethod
-    def table_schema(cls, value: Mapping[str, Any]) -> dict[str, Any]:
-        """JSON Schema of its inline table, `value` being the schema of one value."""
+    """A rule that turns a number in [0, 1) into a value."""
 
     @abstractmethod
     def quantile(self, probability: float) -> Any:
@@ -55,20 +43,27 @@ class Distribution(ABC):
         """The bare value or inline table that gives this distribution back."""
 
 
+class Drawn(Distribution):
+    """A distribution that a recipe writes as an inline table; `keys` are those of the table, the first its name."""
+
+    keys: ClassVar[tuple[str, ...]]
+
+    @classmethod
+    @abstractmethod
+    def from_table(cls, table: Mapping[str, Any]) -> Drawn:
+        """The distribution an inline table describes; raises DistributionError."""
+
+    @classmethod
+    @abstractmethod
+    def table_schema(cls, value: Mapping[str, Any]) -> dict[str, Any]:
+        """JSON Schema of its inline table, `value` being the schema of one value."""
+
+
 @dataclass(frozen=True)
 class Fixed(Distribution):
-    """Always the same value."""
+    """Always the same value, which a recipe writes bare."""
 
     value: Value
-    keys: ClassVar[tuple[str, ...]] = ()
-
-    @classmethod
-    def from_table(cls, table: Mapping[str, Any]) -> Distribution:
-        raise DistributionError("a fixed value is written bare")
-
-    @classmethod
-    def table_schema(cls, value: Mapping[str, Any]) -> dict[str, Any]:
-        return dict(value)
 
     def quantile(self, probability: float) -> Any:
         return self.value

@@ -18,7 +18,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from datagen.distributions.choices import Balanced, Choice
-from datagen.distributions.distribution import Distribution, DistributionError, Fixed, Value
+from datagen.distributions.distribution import Distribution, DistributionError, Drawn, Fixed, Value
 from datagen.distributions.ranges import LogUniform, Normal, Uniform
 from datagen.errors import value_text
 from physics.spelling import suggestion
@@ -38,7 +38,7 @@ __all__ = [
     "parse_distribution",
 ]
 
-DISTRIBUTIONS: tuple[type[Distribution], ...] = (Uniform, LogUniform, Normal, Choice, Balanced)
+DISTRIBUTIONS: tuple[type[Drawn], ...] = (Uniform, LogUniform, Normal, Choice, Balanced)
 NAMES = tuple(kind.keys[0] for kind in DISTRIBUTIONS)
 
 

@@ -9,18 +9,18 @@ from typing import Any, ClassVar
 
 from scipy.special import ndtr, ndtri
 
-from datagen.distributions.distribution import Distribution, DistributionError, number, object_schema, pair, pair_schema
+from datagen.distributions.distribution import DistributionError, Drawn, number, object_schema, pair, pair_schema
 
 SMALLEST_PROBABILITY = 2.0**-54
 
 
 @dataclass(frozen=True)
-class _Range(Distribution):
+class _Range(Drawn):
     low: float
     high: float
 
     @classmethod
-    def from_table(cls, table: Mapping[str, Any]) -> Distribution:
+    def from_table(cls, table: Mapping[str, Any]) -> _Range:
         low, high = pair(cls.keys[0], table[cls.keys[0]])
         if low >= high:
             raise DistributionError(f"{cls.keys[0]} = [{low:g}, {high:g}]: the smaller number comes first")
@@ -63,7 +63,7 @@ class LogUniform(_Range):
 
 
 @dataclass(frozen=True)
-class Normal(Distribution):
+class Normal(Drawn):
     """Gaussian with `mean` and `deviation`, cut off below `low` and above `high` (the rest keeps its shape)."""
 
     mean: float
@@ -73,7 +73,7 @@ class Normal(Distribution):
     keys: ClassVar[tuple[str, ...]] = ("normal", "low", "high")
 
     @classmethod
-    def from_table(cls, table: Mapping[str, Any]) -> Distribution:
+    def from_table(cls, table: Mapping[str, Any]) -> Normal:
         mean, deviation = pair("normal", table["normal"])
         if deviation <= 0.0:
             raise DistributionError(f"normal = [{mean:g}, {deviation:g}]: the standard deviation must be above 0")

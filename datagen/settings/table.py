@@ -81,17 +81,17 @@ class _Setting:
 
 @dataclass(frozen=True)
 class Between(_Setting):
-    """A number from `low` to `high`; `above` excludes `low` itself. A normal distribution is cut off there."""
+    """A number from `low` to `high`, or any if neither is given; `above` excludes `low` itself. A normal distribution
+    is cut off there."""
 
     low: float = -math.inf
     high: float = math.inf
     above: bool = False
 
     def allowed(self) -> str:
-        if self.low == -math.inf:
-            return "a number" if self.high == math.inf else f"a number up to {self.high:g}"
-        bottom = f"a number above {self.low:g}" if self.above else f"a number from {self.low:g}"
-        return bottom + (f" to {self.high:g}" if self.high < math.inf else "")
+        if self == Between():
+            return "a number"
+        return f"a number {'above' if self.above else 'from'} {self.low:g} to {self.high:g}"
 
     def accepts(self, value: Any) -> bool:
         if isinstance(value, bool) or not isinstance(value, int | float):
@@ -110,10 +110,8 @@ class Between(_Setting):
         return distribution.within(self.low, self.high) if isinstance(distribution, Normal) else distribution
 
     def value_schema(self) -> dict[str, Any]:
-        schema: dict[str, Any] = {"type": "number"}
-        if self.low > -math.inf:
-            schema["exclusiveMinimum" if self.above else "minimum"] = self.low
-        return schema | ({"maximum": self.high} if self.high < math.inf else {})
+        ends = {"exclusiveMinimum" if self.above else "minimum": self.low, "maximum": self.high}
+        return {"type": "number"} | {name: end for name, end in ends.items() if math.isfinite(end)}
 
 
 @dataclass(frozen=True)

@@ -52,7 +52,7 @@ class ShaftSpeed:
 
     rpm: float
     basis: str
-    angle: NDArray[np.float64] | None = None
+    angle: NDArray[np.float64] | None
     mended: int = 0
 
 

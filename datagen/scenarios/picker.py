@@ -24,9 +24,7 @@ class Picker:
     number at a position (from 0) into that of a design; `turns` gives balanced settings their value.
     """
 
-    def __init__(
-        self, open_stream: Callable[[], np.random.Generator], refine: Refine, turns: Turns | None = None
-    ) -> None:
+    def __init__(self, open_stream: Callable[[], np.random.Generator], refine: Refine, turns: Turns) -> None:
         self._open_stream = open_stream
         self._refine = refine
         self._turns = turns
@@ -42,7 +40,7 @@ class Picker:
         if setting is None or isinstance(setting, Fixed):
             self._pass_over()
             return None if setting is None else setting.value
-        if isinstance(setting, Balanced) and self._turns is not None:
+        if isinstance(setting, Balanced):
             self._pass_over()
             return self._turns.take(setting)
         return setting.quantile(self.share())

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from datagen.errors import BadInput
 from datagen.judging.user_code import FIELD, load_user_code
-from datagen.sizing.user_estimator import UserEstimator
+from datagen.sizing.user_estimator import ESTIMATOR_FORMS, UserEstimator
 from labels.schema import SPLITS
 from labels.spall_size.estimation.calibration import Calibration
 from labels.spall_size.estimation.estimator import SizeEstimator
@@ -23,10 +23,6 @@ CALIBRATION_FILE = Path(__file__).with_name("calibration.npz")
 # Recipes' seeds, which decide what machines are drawn, and the splits of their corpora that the calibration is fitted
 # to: of datasets/size_ladder, size_training and size_imperfect.
 FITTED_SPLITS: Mapping[int, tuple[str, ...]] = {3303: ("train", "validation"), 4404: SPLITS, 4406: SPLITS}
-ESTIMATOR_FORMS = (
-    "module:Class with a method estimate(acceleration, rate, situation) that returns a SizeEstimate, "
-    "or module:function that does the same"
-)
 
 
 class AnyEstimator(Protocol):
@@ -61,4 +57,4 @@ def find_estimator(name: str | None) -> AnyEstimator:
     if not callable(getattr(made, "estimate", made)):
         problem = "it has no method estimate, and cannot be called"
         raise BadInput(problem, field=FIELD, value=name, allowed=ESTIMATOR_FORMS)
-    return UserEstimator(name, made, ESTIMATOR_FORMS)
+    return UserEstimator(name, made)

@@ -17,18 +17,20 @@ from labels.spall_size.situation import Situation
 from labels.spall_size.size_estimate import LONGEST_EXTENT, SizeEstimate, SizeOutcome
 from physics.bearing import RACES
 
+ESTIMATOR_FORMS = (
+    "module:Class with a method estimate(acceleration, rate, situation) that returns a SizeEstimate, "
+    "or module:function that does the same"
+)
 NUMBERS = ("lag", "lag_arc", "extent", "extent_mm", "pass_period", "trust")
 INTERVALS = ("lag_interval", "extent_interval", "extent_mm_interval")
 
 
 @dataclass(frozen=True)
 class UserEstimator:
-    """The user's `made` of "module:Class" or "module:function" `name`: its method `estimate`, or calling it, returns
-    what is `allowed`."""
+    """What the user's "module:Class" or "module:function" `name` has `made`, one of ESTIMATOR_FORMS."""
 
     name: str
     made: Any
-    allowed: str
 
     def estimate(self, acceleration: NDArray[np.float64], rate: float, situation: Situation) -> SizeEstimate:
         """What the user's object makes of acceleration (T, axes), m/s², sampled at `rate` (Hz); it is given a copy.
@@ -41,7 +43,7 @@ class UserEstimator:
             estimate: SizeEstimate = (method or self.made)(acceleration.copy(), rate, situation)
         problem = _against(estimate)
         if problem:
-            raise BadInput(f"{subject} gave {problem}", field=FIELD, value=self.name, allowed=self.allowed)
+            raise BadInput(f"{subject} gave {problem}", field=FIELD, value=self.name, allowed=ESTIMATOR_FORMS)
         return estimate
 
 

@@ -7,13 +7,15 @@ import pytest
 
 from datagen.distributions.kinds import Balanced, Distribution, Fixed, Uniform, parse_distribution
 from datagen.scenarios.picker import Picker
+from datagen.scenarios.turns import Turn, Turns
 
 DRAWN = Uniform(0.0, 1.0)
+TURNS = Turns(Turn(0), lambda *_: np.random.default_rng(5))
 
 
 def picker() -> Picker:
     """Draws from the numbers of one seed as they are."""
-    return Picker(lambda: np.random.default_rng(3), lambda _, number: number)
+    return Picker(lambda: np.random.default_rng(3), lambda _, number: number, TURNS)
 
 
 def test_a_value_is_the_quantile_of_the_next_number() -> None:
@@ -34,5 +36,5 @@ def test_no_stream_is_opened_for_settings_that_leave_nothing_to_chance() -> None
     def refuse() -> np.random.Generator:
         raise AssertionError("a stream was opened")
 
-    pick = Picker(refuse, lambda _, number: number)
+    pick = Picker(refuse, lambda _, number: number, TURNS)
     assert [pick.value(Fixed(1.0)), pick.value(None)] == [1.0, None]

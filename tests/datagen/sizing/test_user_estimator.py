@@ -22,7 +22,7 @@ from datagen.sizing.corpus_run import score_sizes
 from datagen.sizing.estimators import find_estimator
 from datagen.sizing.size_request import SizeRequest
 from datagen.sizing.sized_records import SizedRecord, sized_records
-from datagen.sizing.user_estimator import UserEstimator
+from datagen.sizing.user_estimator import ESTIMATOR_FORMS, UserEstimator
 from labels.spall_size.situation import Situation
 from labels.spall_size.size_estimate import SizeEstimate, SizeOutcome
 
@@ -67,7 +67,7 @@ class Saying:
 
 
 def asked(answer: Any) -> SizeEstimate:
-    estimator = UserEstimator("mine:Sizer", Saying(answer), "a method that returns a SizeEstimate")
+    estimator = UserEstimator("mine:Sizer", Saying(answer))
     return estimator.estimate(np.zeros((4, 2)), 1000.0, None)  # type: ignore[arg-type]
 
 
@@ -77,7 +77,7 @@ def test_an_estimator_that_changes_its_record_changes_a_copy() -> None:
         return GOOD
 
     record = np.ones((16, 2))
-    assert UserEstimator("mine:silences", silences, "").estimate(record, 1000.0, MACHINE) is GOOD
+    assert UserEstimator("mine:silences", silences).estimate(record, 1000.0, MACHINE) is GOOD
     assert (record == 1.0).all()
 
 
@@ -88,7 +88,7 @@ def test_what_is_no_estimate_is_named_with_what_is_due(problem: str) -> None:
     message = str(refused.value)
     assert message.startswith('--estimator = "mine:Sizer": its method estimate gave ')
     assert problem in message
-    assert message.endswith("allowed: a method that returns a SizeEstimate")
+    assert message.endswith(f"allowed: {ESTIMATOR_FORMS}")
 
 
 def test_estimates_and_refusals_of_one_pass() -> None:
@@ -105,7 +105,7 @@ def test_an_estimate_of_the_least_that_is_required_is_scored_where_the_load_is_k
     }  # fmt: skip
     loaded = replace(MACHINE, load=500.0, load_deflection=1e10)
     record = SizedRecord(3, 1000.0, np.zeros((400, 2)), None, labels, loaded, None)
-    row = score_record(record, UserEstimator("mine:Sizer", Saying(least), ""))
+    row = score_record(record, UserEstimator("mine:Sizer", Saying(least)))
     assert (row.answer.extent, row.answer.race) == (0.1, "")
     assert math.isnan(row.static_arc)
 

@@ -12,7 +12,7 @@ from scipy import fft
 from labels.band import Band
 from labels.band_tree import band_edges, usable_bandwidth
 from labels.squared_envelope import excess_kurtosis, squared_envelope
-from physics.arrays import Array
+from physics.arrays import Array, ComplexArray
 
 STRETCHES = 8
 FEWEST_COMPONENTS = 2.0
@@ -31,7 +31,7 @@ def most_impulsive_band(signal: Array, rate: float, piece: int) -> Band:
     return low, high
 
 
-def _kurtosis(inside: np.ndarray) -> float:
+def _kurtosis(inside: ComplexArray) -> float:
     """Median over stretches of the excess kurtosis of the complex signal with these Fourier components."""
     square = squared_envelope(inside, max(inside.size, STRETCHES))
     stretches = [part for part in np.array_split(square, STRETCHES) if part.any()]

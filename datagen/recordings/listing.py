@@ -11,10 +11,8 @@ from datagen.errors import BadInput
 from datagen.recordings.label_table import TableRow
 from datagen.recordings.part_files import PartFiles
 from datagen.recordings.root import Root
-from datagen.recordings.settings import ALTERNATIVES, Channel, merged
+from datagen.recordings.settings import SPEEDS, Channel, merged
 from datagen.recordings.spec import Spec
-
-SPEED_SETTINGS = ALTERNATIVES[0]
 
 NOT_SETTINGS = ("name", "files", "leave_out", "table", "note_columns", "absent_files", "override")
 
@@ -97,8 +95,8 @@ def _require_text(path: Path, place: str) -> None:
 
 
 def _refuse_two_speeds(settings: dict[str, Any], row: TableRow) -> None:
-    before = [name for name in SPEED_SETTINGS if name in settings]
-    now = [name for name in SPEED_SETTINGS if name in row.settings]
+    before = [name for name in SPEEDS if name in settings]
+    now = [name for name in SPEEDS if name in row.settings]
     if before and now:
         raise BadInput(
             f"two sources for the speed: the SPEC also states {before[0]}",

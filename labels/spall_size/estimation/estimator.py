@@ -62,7 +62,7 @@ class SizeEstimator:
             return SizeEstimate(SizeOutcome.NO_PASSES, method)
         found = map(heard.evidence, (1.0,) if situation.polarity_known else (1.0, -1.0))
         judged = [self.judge(evidence, situation) for evidence in found if evidence is not None]
-        return max(judged, key=_trust) if judged else SizeEstimate(SizeOutcome.NO_PASSES, method)
+        return max(judged, key=lambda size: size.trust) if judged else SizeEstimate(SizeOutcome.NO_PASSES, method)
 
     def judge(self, evidence: Evidence, situation: Situation) -> SizeEstimate:
         """Size of the spall that gave `evidence`."""
@@ -76,10 +76,6 @@ class SizeEstimator:
         if doubt > judgement.most:
             return SizeEstimate(SizeOutcome.NO_EVENT_PAIR, _method(situation), evidence.race, trust=trust)
         return _answer(evidence, measured, judgement, situation, trust)
-
-
-def _trust(estimate: SizeEstimate) -> float:
-    return estimate.trust
 
 
 def _method(situation: Situation) -> str:

@@ -19,8 +19,8 @@ from physics.bearing import (
 )
 from physics.checks import require, require_between, require_one_of, require_positive
 
-# Of bearing steel; the modulus in Pa.
-YOUNG_MODULUS, POISSON_RATIO = 206e9, 0.3
+# E/(1 − ν²) of bearing steel, Pa, with E = 206 GPa and ν = 0.3.
+STEEL_MODULUS = 206e9 / (1.0 - 0.3**2)
 BALL_EXPONENT = 1.5
 ROLLER_EXPONENT = 10.0 / 9.0
 PALMGREN_FACTOR = 8.06e4  # N/mm^2: load of one steel line contact is 8.06e4 l^(8/9) δ^(10/9), l and δ in mm
@@ -29,20 +29,18 @@ MILLIMETRES = 1e3
 
 @dataclass(frozen=True)
 class PointContact:
-    """Two bodies touching at a point, by the sums of their curvatures (1/m) along and across the rolling direction.
+    """Two steel bodies touching at a point, by the sums of their curvatures (1/m) along and across the rolling
+    direction.
 
-    A concave body counts as negative. `modulus` is E/(1 − ν²) of both bodies alike, Pa. InvalidParameter unless all
-    three are above 0.
+    A concave body counts as negative. InvalidParameter unless both sums are above 0.
     """
 
     along: float
     across: float
-    modulus: float = YOUNG_MODULUS / (1.0 - POISSON_RATIO**2)
 
     def __post_init__(self) -> None:
         require_positive("along", self.along, "1/m")
         require_positive("across", self.across, "1/m")
-        require_positive("modulus", self.modulus, "Pa")
 
     @property
     def curvature_sum(self) -> float:
@@ -56,13 +54,13 @@ class PointContact:
 
     def semi_axes(self, load: float) -> tuple[float, float]:
         """Half the size of the contact along and across the rolling direction under `load` (N), m."""
-        scale = (3.0 * load / (self.curvature_sum * self.modulus)) ** (1.0 / 3.0)
+        scale = (3.0 * load / (self.curvature_sum * STEEL_MODULUS)) ** (1.0 / 3.0)
         major, minor, _ = contact_parameters(self.curvature_difference)
         return (minor * scale, major * scale) if self.along >= self.across else (major * scale, minor * scale)
 
     def approach(self, load: float) -> float:
         """Distance by which `load` (N) brings the bodies together, m."""
-        scale = (3.0 * load / (self.curvature_sum * self.modulus)) ** (2.0 / 3.0)
+        scale = (3.0 * load / (self.curvature_sum * STEEL_MODULUS)) ** (2.0 / 3.0)
         return contact_parameters(self.curvature_difference)[2] * scale * self.curvature_sum / 2.0
 
     @property
@@ -76,6 +74,7 @@ def contact_parameters(curvature_difference: float) -> tuple[float, float, float
 
     With κ = a/b and complete elliptic integrals K, E of modulus² 1 − 1/κ²: F(ρ) = ((κ² + 1) E − 2 K) / ((κ² − 1) E),
     a* = (2κ²E/π)^(1/3), b* = a*/κ, δ* = (2K/π) (π/(2κ²E))^(1/3) (Harris, Rolling Bearing Analysis, chapter 6).
+    InvalidParameter for another F(ρ), or one within 1e-9 of 1.
     """
     inverse_square = _inverse_ellipticity_squared(curvature_difference)
     first, second = float(ellipkm1(inverse_square)), float(ellipe(1.0 - inverse_square))
@@ -209,4 +208,4 @@ def contact_width(bearing: Bearing, race: str, load: float) -> float:
     if not is_roller(bearing):
         return 2.0 * contact.semi_axes(load)[0]
     length = roller_length(bearing.load_deflection)
-    return 2.0 * math.sqrt(8.0 * load / (math.pi * length * contact.along * contact.modulus))
+    return 2.0 * math.sqrt(8.0 * load / (math.pi * length * contact.along * STEEL_MODULUS))

@@ -52,10 +52,10 @@ def require_between(field: str, value: float, low: float, high: float, unit: str
     )
 
 
-def require_finite(field: str, value: float, unit: str = "", what: str = "") -> None:
+def require_finite(field: str, value: float, unit: str = "") -> None:
     """Raise InvalidParameter unless `value` is finite."""
     suffix = f" {unit}" if unit else ""
-    require(_is_finite(value), f"{what or field} = {_said(value)}{suffix}; it must be finite", field)
+    require(_is_finite(value), f"{field} = {_said(value)}{suffix}; it must be finite", field)
 
 
 def require_angle(field: str, value: float) -> None:
@@ -99,7 +99,7 @@ def require_not_negative(field: str, value: float, unit: str = "", what: str = "
 def require_below_nyquist(field: str, frequency: float, rate: float, what: str = "") -> None:
     """Raise InvalidParameter unless `frequency` (Hz), 0 or above, lies below half the `rate` (Hz)."""
     require_positive("rate", rate, "Hz")
-    message = f"{what or field} = {frequency!r} Hz; allowed: from 0 to below {rate / 2.0:.10g} Hz, half the rate"
+    message = f"{what or field} = {_said(frequency)} Hz; allowed: from 0 to below {rate / 2.0:.10g} Hz, half the rate"
     require(_is_finite(frequency) and 0.0 <= frequency < rate / 2.0, message, field)
 
 

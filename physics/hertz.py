@@ -113,7 +113,7 @@ def race_contact(
     require_one_of("race", race, RACES)
     require_positive("pitch_diameter", pitch_diameter, "m")
     require_positive("ball_diameter", ball_diameter, "m")
-    problem = f"ball_diameter = {ball_diameter!r} m; it must be below the pitch diameter of {pitch_diameter!r} m"
+    problem = f"ball_diameter = {ball_diameter} m; it must be below the pitch diameter of {pitch_diameter} m"
     require(ball_diameter < pitch_diameter, problem, "ball_diameter")
     require_between("contact_angle", contact_angle, 0.0, LARGEST_CONTACT_ANGLE, "rad")
     require_between("conformity", conformity, SMALLEST_CONFORMITY, LARGEST_CONFORMITY)

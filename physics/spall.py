@@ -117,7 +117,7 @@ class Spall:
                 require_between("roughness_values", value, -DEEPEST, DEEPEST, "m", what)
         require(
             values[0] == 0.0 and values[-1] == 0.0,
-            f"roughness_values begin with {values[0]!r} and end with {values[-1]!r} m; they must begin and end with 0",
+            f"roughness_values begin with {values[0]} and end with {values[-1]} m; they must begin and end with 0",
             "roughness_values",
         )
 

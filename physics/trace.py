@@ -50,7 +50,7 @@ class Kept:
 
     def __post_init__(self) -> None:
         require_not_negative("fastest_path", self.fastest_path, "Hz")
-        problem = f"fastest_path = {self.fastest_path!r} Hz; without the outer ring's motion nothing follows it"
+        problem = f"fastest_path = {self.fastest_path} Hz; without the outer ring's motion nothing follows it"
         require(self.outer or self.fastest_path == 0.0, problem, "fastest_path")
 
 

@@ -41,6 +41,8 @@ def test_a_refused_number_is_told_by_its_digits_and_a_text_in_quotes():
     for value, said in ((np.float64(1.5), "1.5"), (np.float32(2.5), "2.5"), ("1.5", "'1.5'")):
         with pytest.raises(InvalidParameter, match=f"^depth = {said} m; allowed: 0 to 1 m$"):
             require_between("depth", value, 0.0, 1.0, "m")
+    with pytest.raises(InvalidParameter, match=r"^cutoff = 1\.5 Hz; allowed: from 0 to below 1 Hz, half the rate$"):
+        require_below_nyquist("cutoff", np.float64(1.5), 2.0)
 
 
 @pytest.mark.parametrize("value", [1e6, -1e6])

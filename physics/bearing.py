@@ -16,11 +16,13 @@ Force = TypeVar("Force", float, "Array")
 
 RACES = ("outer", "inner")
 FEWEST_BALLS, MOST_BALLS = 3, 200
+MOST_ROWS = 2
 DEFAULT_CONFORMITY = 0.52
 SMALLEST_CONFORMITY, LARGEST_CONFORMITY = 0.501, 1e3
 SMALLEST_EXPONENT, LARGEST_EXPONENT = 1.0, 2.0
 LARGEST_CONTACT_ANGLE_DEG = 60.0
 LARGEST_CONTACT_ANGLE = math.radians(LARGEST_CONTACT_ANGLE_DEG)
+LARGEST_CLEARANCE = 1e-3  # m, of either sign
 # Balls may be larger than their chord by this share: those that just touch are so by rounding.
 ROUNDING = 1e-12
 
@@ -62,13 +64,13 @@ class Bearing:
 
     def __post_init__(self) -> None:
         require_count("balls", self.balls, FEWEST_BALLS, MOST_BALLS)
-        require_count("rows", self.rows, 1, 2)
+        require_count("rows", self.rows, 1, MOST_ROWS)
         require_positive("pitch_diameter", self.pitch_diameter, "m")
         require_positive("ball_diameter", self.ball_diameter, "m")
         require_positive("load_deflection", self.load_deflection, "N/m^n")
         require_between("exponent", self.exponent, SMALLEST_EXPONENT, LARGEST_EXPONENT)
         require_between("contact_angle", self.contact_angle, 0.0, LARGEST_CONTACT_ANGLE, "rad")
-        require_between("clearance", self.clearance, -1e-3, 1e-3, "m")
+        require_between("clearance", self.clearance, -LARGEST_CLEARANCE, LARGEST_CLEARANCE, "m")
         require_finite("row_offset", self.stagger, "rad")
         require_between("inner_conformity", self.inner_conformity, SMALLEST_CONFORMITY, LARGEST_CONFORMITY)
         require_between("outer_conformity", self.outer_conformity, SMALLEST_CONFORMITY, LARGEST_CONFORMITY)

@@ -17,6 +17,7 @@ from physics.checks import (
 # m, far beyond a race that is still one.
 HIGHEST_WAVE = 1e-2
 HIGHEST_ORDER = 2000
+LARGEST_DEVIATION = 1e-3  # m, of a ball's diameter, of either sign
 
 
 @dataclass(frozen=True)
@@ -55,4 +56,4 @@ class Imperfections:
         settle_tuples(self, "waviness", "ball_deviation")
         for row in self.ball_deviation:
             for deviation in row:
-                require_between("ball_deviation", deviation, -1e-3, 1e-3, "m")
+                require_between("ball_deviation", deviation, -LARGEST_DEVIATION, LARGEST_DEVIATION, "m")

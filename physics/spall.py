@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import combinations, pairwise
 
-from physics.bearing import RACES, Bearing
+from physics.bearing import MOST_ROWS, RACES, Bearing
 from physics.checks import (
     require,
     require_angle,
@@ -72,7 +72,7 @@ class Spall:
     def __post_init__(self) -> None:
         settle_tuples(self, "roughness_values", "table_angle", "table_depth")
         require_one_of("race", self.race, RACES)
-        require_count("row", self.row, 1, 2)
+        require_count("row", self.row, 1, MOST_ROWS)
         require_one_of("profile", self.profile, PROFILES)
         require_angle("angle", self.angle)
         require_up_to("extent", self.extent, math.pi, "rad")

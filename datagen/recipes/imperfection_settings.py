@@ -10,10 +10,11 @@ from datagen.distributions.kinds import Distribution, Fixed, Uniform
 from datagen.recipes.quantities import Degrees
 from datagen.settings.table import Between, OneOf, Table, rising
 from physics.bearing import RACES
-from physics.imperfections import HIGHEST_ORDER
+from physics.imperfections import HIGHEST_ORDER, LARGEST_DEVIATION
 
 Scale = Annotated[Distribution, Between(0.0, 1e3)]
 Order = Annotated[int, Field(ge=1, le=HIGHEST_ORDER)]
+LARGEST_DEVIATION_UM = LARGEST_DEVIATION * 1e6
 
 
 class WavinessSettings(Table):
@@ -37,7 +38,7 @@ class ImperfectionSettings(Table):
 
     waviness: tuple[WavinessSettings, ...] = Field(default=(), strict=False)
     """Waviness of the races."""
-    ball_deviation_um: Annotated[Distribution, Between(-1000.0, 1000.0)] = Fixed(0.0)
+    ball_deviation_um: Annotated[Distribution, Between(-LARGEST_DEVIATION_UM, LARGEST_DEVIATION_UM)] = Fixed(0.0)
     """Diameter of each ball minus the nominal one, µm; drawn for each ball."""
     waviness_scale: Scale = Fixed(1.0)
     """Factor on every amplitude of a machine's waviness."""

@@ -8,14 +8,16 @@ from pydantic import model_validator
 
 from datagen.distributions.kinds import Distribution, Fixed
 from datagen.recipes.operation_settings import FASTEST_RPM, SLOWEST_RPM
-from datagen.recipes.quantities import Degrees, Frequency
+from datagen.recipes.quantities import DIAMETERS_MM, Degrees, Frequency
 from datagen.settings.table import Between, OneOf, Table, Whole, at_most_one, possible_words, refuse
 from physics.bearing import (
     FEWEST_BALLS,
+    LARGEST_CLEARANCE,
     LARGEST_CONFORMITY,
     LARGEST_CONTACT_ANGLE_DEG,
     LARGEST_EXPONENT,
     MOST_BALLS,
+    MOST_ROWS,
     SMALLEST_CONFORMITY,
     SMALLEST_EXPONENT,
 )
@@ -27,7 +29,8 @@ DRAWN = "drawn"
 Stiffness = Annotated[Distribution, Between(1.0, 1e13)]
 Damping = Annotated[Distribution, Between(0.0, 1e9)]
 LoadDeflection = Annotated[Distribution, Between(1e3, 1e13)]
-DiameterMm = Annotated[Distribution, Between(0.1, 1e5)]
+DiameterMm = Annotated[Distribution, DIAMETERS_MM]
+LARGEST_CLEARANCE_UM = LARGEST_CLEARANCE * 1e6
 Mass = Annotated[Distribution, Between(1e-6, 1e7)]
 Factor = Annotated[Distribution, Between(1e-6, 1e6)]
 NotNegativeFactor = Annotated[Distribution, Between(0.0, 1e6)]
@@ -100,7 +103,7 @@ class MachineSettings(Table):
     """Name of another bearing of the catalogue to mount in the rig, or "drawn"."""
     balls: Annotated[Distribution, Whole(FEWEST_BALLS, MOST_BALLS)] | None = None
     """Rolling elements in each row."""
-    rows: Annotated[Distribution, Whole(1, 2)] | None = None
+    rows: Annotated[Distribution, Whole(1, MOST_ROWS)] | None = None
     """Rows of rolling elements."""
     pitch_diameter_mm: DiameterMm | None = None
     """Diameter of the circle through the balls' centres, mm."""
@@ -115,7 +118,7 @@ class MachineSettings(Table):
     Hertz's factor of the geometry, or Hertz's own for a drawn bearing."""
     exponent: Annotated[Distribution, Between(SMALLEST_EXPONENT, LARGEST_EXPONENT)] | None = None
     """Exponent n of the load-deflection law: 1.5 for balls, 1.1111 for rollers."""
-    clearance_um: Annotated[Distribution, Between(-1000.0, 1000.0)] | None = None
+    clearance_um: Annotated[Distribution, Between(-LARGEST_CLEARANCE_UM, LARGEST_CLEARANCE_UM)] | None = None
     """Radial clearance (half the diametral play), µm; negative: preload."""
     inner_mass_kg: Mass | None = None
     """Mass of inner ring and shaft, kg."""

@@ -11,6 +11,8 @@ from datagen.settings.table import Angle, Between
 RATES_HZ = Between(100.0, 1e7)
 RATIOS_DB = Between(-100.0, 200.0)
 EXTENTS_MM = Between(0.0, 1e4, above=True)
+# The balls of bearings are not smaller, and a number below this is a length in m.
+DIAMETERS_MM = Between(0.1, 1e5)
 
 Degrees = Annotated[Distribution, Angle()]
 Frequency = Annotated[Distribution, Between(1e-3, 1e7)]  # Hz

@@ -8,10 +8,18 @@ from pydantic import AfterValidator, BeforeValidator, Field, model_validator
 
 from datagen.formats.csv_layout import CsvLayout
 from datagen.formats.reading import FORMATS
+from datagen.recipes.quantities import DIAMETERS_MM
 from datagen.recordings.values import RANGES, FromVariable, finite_notes, number, word
 from datagen.settings.table import Table, at_most_one, refuse
 from labels.schema import CONDITIONS, LABEL, LOCATIONS, SPLITS, UNKNOWN
-from physics.bearing import FEWEST_BALLS, LARGEST_CONTACT_ANGLE_DEG, LARGEST_EXPONENT, MOST_BALLS, SMALLEST_EXPONENT
+from physics.bearing import (
+    FEWEST_BALLS,
+    LARGEST_CONTACT_ANGLE_DEG,
+    LARGEST_EXPONENT,
+    MOST_BALLS,
+    MOST_ROWS,
+    SMALLEST_EXPONENT,
+)
 
 UNITS = {"m/s2": 1.0, "g": 9.80665}
 # Units that a scale makes of these.
@@ -20,8 +28,7 @@ VELOCITIES = ("m/s", "cm/s", "mm/s", "um/s", "in/s", "ips")
 Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
 # Longer than any recording, s.
 LONGEST_S = 1e9
-# mm; the balls of bearings are not smaller, and a number below this is a length in m.
-Diameter = Annotated[float, Field(ge=0.1, le=1e5)]
+Diameter = Annotated[float, Field(ge=DIAMETERS_MM.low, le=DIAMETERS_MM.high)]
 VOLTS = 'volts of a sensor need a scale: unit = "g" and scale = 10 for 100 mV/g, 0.01 for mV'
 IN_WORDS = "none means healthy, unknown that nobody said"
 FOLLOWS = "it follows from location and extent and can be left out: location says what is damaged"
@@ -90,7 +97,7 @@ class BearingNumbers(Table):
     """Designation."""
     balls: Annotated[int, Field(ge=FEWEST_BALLS, le=MOST_BALLS)]
     """Rolling elements in one row."""
-    rows: Annotated[int, Field(ge=1, le=2)] = 1
+    rows: Annotated[int, Field(ge=1, le=MOST_ROWS)] = 1
     """Rows of rolling elements."""
     pitch_diameter_mm: Diameter
     """Diameter of the circle through the balls' centres, mm."""

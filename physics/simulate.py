@@ -21,8 +21,7 @@ from physics.response.lead_in import from_start, respond_behind, started_earlier
 from physics.response.lowered import respond_lowered
 from physics.response.modal_case import mean_flow
 from physics.response.oversampling import oversampling
-from physics.response.periodic import METHOD as REPEATED
-from physics.response.periodic import respond_until_repeated, worth_repeating
+from physics.response.periodic import REPEATED, respond_until_repeated, worth_repeating
 from physics.response.resampling import HALF_LENGTH_SAMPLES, decimate
 from physics.response.silence import silence
 from physics.response.single_march import respond_by_reference

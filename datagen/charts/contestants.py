@@ -24,8 +24,7 @@ from physics.integrators.rivals.general_purpose import (
 from physics.ladder.model_table import SIMPLER_MODELS
 from physics.motion import motion_model, starting_state
 from physics.request import Accurate, FixedSteps, Simpler
-from physics.response.periodic import METHOD as REPEATED
-from physics.response.periodic import worth_repeating
+from physics.response.periodic import REPEATED, worth_repeating
 from physics.scene import Scene
 from physics.simulate import simulate
 from physics.statics.load_distribution import equilibrium

@@ -26,16 +26,16 @@ from physics.rms import rms, stretches_apart
 from physics.scene import Scene
 from physics.trace import ContactChanges, Trace
 
-METHOD = "modal, repeated"
+REPEATED = "modal, repeated"
 # The response is read between samples of the march: so many a period of the fastest mode, and at least so many for each
 # one asked for.
-SAMPLES_READ_AGAIN, FINENESS = 16.0, 3
+SAMPLES_READ_AGAIN, LEAST_DENSITY = 16.0, 3
 # A record must hold this many periods, or repeating spares too little; fewer where a spall is rough and steps short.
 FEWEST_PERIODS, FEWEST_ROUGH_PERIODS = 20, 12
 # So many periods show how a slow part of the transient falls.
 FEWEST_MARCHED = 3
 # Of the accuracy asked for: what the march may be wrong by, and how far its last period may be from all later ones.
-MARCHED, REPEATED = 0.85, 0.4
+MARCHED_SHARE, REPEATED_SHARE = 0.85, 0.4
 # A spall that a ball passes in fewer samples than this leaves spikes that lie between the samples that are read.
 FEWEST_SAMPLES_A_PASS = 2.0
 # Corners of the acceleration, where contacts change, are not read to a finer accuracy than this.
@@ -72,26 +72,26 @@ def respond_until_repeated(asked: Asked) -> Trace:
     scene, rate, samples = asked.scene, asked.rate, asked.samples
     if any(spall.extent * rate < FEWEST_SAMPLES_A_PASS * scene.cage.mean_speed for spall in scene.spalls):
         return respond_accurately(asked)
-    period, fineness, duration = period_of(scene), _fineness(scene, rate), samples / rate
-    cells = math.ceil(fineness * rate * period)
-    marching = _Repeating(cells, REPEATED * asked.accuracy, REPEATED * asked.least_error)
+    period, density, duration = period_of(scene), _density(scene, rate), samples / rate
+    cells = math.ceil(density * rate * period)
+    marching = _Repeating(cells, REPEATED_SHARE * asked.accuracy, REPEATED_SHARE * asked.least_error)
     finer = replace(
         asked,
         rate=cells / period,
         samples=cells * math.ceil(duration / period),
-        accuracy=MARCHED * asked.accuracy,
-        least_error=MARCHED * asked.least_error,
+        accuracy=MARCHED_SHARE * asked.accuracy,
+        least_error=MARCHED_SHARE * asked.least_error,
     )
-    marched = respond_accurately(finer, go_on=marching.go_on, pilot=fineness * PILOT_SAMPLES)
+    marched = respond_accurately(finer, go_on=marching.go_on, pilot=density * PILOT_SAMPLES)
     trace = _read_again(scene, marched, marching, rate, samples)
     if trace.error_estimate > asked.accuracy and trace.error_estimate * rms(trace.acceleration) > asked.least_error:
         return respond_accurately(asked)
     return trace
 
 
-def _fineness(scene: Scene, rate: float) -> int:
+def _density(scene: Scene, rate: float) -> int:
     """How many times as dense as asked for, at `rate` (Hz), the samples of the march are."""
-    return max(FINENESS, math.ceil(fast_periods(motion_model(scene), 1.0 / rate) * SAMPLES_READ_AGAIN))
+    return max(LEAST_DENSITY, math.ceil(fast_periods(motion_model(scene), 1.0 / rate) * SAMPLES_READ_AGAIN))
 
 
 def _read_again(scene: Scene, marched: Trace, marching: _Repeating, rate: float, samples: int) -> Trace:
@@ -104,7 +104,7 @@ def _read_again(scene: Scene, marched: Trace, marching: _Repeating, rate: float,
         marched,
         rate=rate,
         time=time,
-        method=METHOD if end < duration else marched.method,
+        method=REPEATED if end < duration else marched.method,
         acceleration=read_repeated(marched.acceleration, marching.cells, marching.cells / (period * rate), samples),
         changes=_repeated_changes(scene, marched.changes, end, duration),
         error_estimate=math.hypot(marched.error_estimate, left, _reading_error(last)),

@@ -18,7 +18,7 @@ from datagen.versions import in_words, measured_on
 from docs.marked_tables import write_marked
 from physics.reference_scenes import REFERENCE_SCENES, reference_scene
 from physics.request import FixedSteps, Reference
-from physics.response.periodic import METHOD as REPEATED
+from physics.response.periodic import REPEATED
 from physics.rms import relative_error
 from physics.scene import Scene
 from physics.simulate import simulate

@@ -10,7 +10,7 @@ from physics.cage import CagePath
 from physics.imperfections import Imperfections, Waviness
 from physics.integrators.method_table import MODAL
 from physics.request import Accurate
-from physics.response.periodic import METHOD, balls_a_period, period_of
+from physics.response.periodic import REPEATED, balls_a_period, period_of
 from physics.response.resampling import read_at, read_repeated
 from physics.rms import relative_error, rms
 from physics.simulate import simulate
@@ -30,7 +30,7 @@ def _without_slip(scene, duration):
 
 def test_what_is_repeated_is_what_a_march_to_the_end_gives(steady):
     trace, exact = simulate(steady, RATE), simulate(steady, RATE, Accurate(1e-5))
-    assert trace.method == METHOD
+    assert trace.method == REPEATED
     assert exact.method == MODAL
     assert trace.acceleration.shape == exact.acceleration.shape
     error = relative_error(trace.acceleration, exact.acceleration)
@@ -58,7 +58,7 @@ def test_an_accuracy_that_may_be_too_fine_to_read_is_kept_all_the_same(steady):
 def test_the_estimate_counts_what_the_last_period_has_not_settled_yet(reference_scene):
     scene = _without_slip(reference_scene("F1p", speed_factor=0.5), 1.2)
     trace, exact = simulate(scene, RATE), simulate(scene, RATE, Accurate(1e-5))
-    assert trace.method == METHOD
+    assert trace.method == REPEATED
     assert relative_error(trace.acceleration, exact.acceleration) <= trace.error_estimate
 
 
@@ -121,7 +121,7 @@ def test_unequal_balls_repeat_themselves_once_all_have_passed(reference_scene):
 def test_waves_of_the_outer_race_repeat_themselves_with_the_balls(reference_scene):
     scene = _imperfect(reference_scene("F0"), waviness=(Waviness("outer", 7, 2e-7),))
     trace, exact = simulate(scene, RATE), simulate(scene, RATE, Accurate(1e-5))
-    assert trace.method == METHOD
+    assert trace.method == REPEATED
     error = relative_error(trace.acceleration, exact.acceleration)
     assert error <= trace.error_estimate <= 1e-3
 
@@ -137,7 +137,7 @@ def test_a_response_that_repeats_itself_only_after_two_periods_is_not_read_from_
 def test_a_slow_part_of_the_transient_that_hides_behind_the_rest_is_seen(reference_scene, speed_factor):
     scene = changed(reference_scene("F1", 0.6, speed_factor=speed_factor), operation={"load": 80.0})
     trace, exact = simulate(scene, RATE), simulate(scene, RATE, Accurate(1e-5))
-    assert trace.method == METHOD
+    assert trace.method == REPEATED
     assert rms(trace.acceleration - exact.acceleration) <= trace.error_estimate * rms(exact.acceleration)
 
 
@@ -146,7 +146,7 @@ def test_a_response_of_which_a_low_rate_leaves_little_is_not_repeated(reference_
     low, exact = simulate(scene, 1000.0), simulate(scene, 1000.0, Accurate(1e-6))
     assert rms(low.acceleration - exact.acceleration) <= low.error_estimate * rms(exact.acceleration)
     assert low.method == MODAL
-    assert simulate(scene, 8000.0).method == METHOD
+    assert simulate(scene, 8000.0).method == REPEATED
 
 
 def test_a_polynomial_of_degree_five_is_read_exactly_anywhere():

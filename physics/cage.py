@@ -144,6 +144,7 @@ class LongerPath(CagePath):
 @lru_cache(maxsize=16)
 def slip_knot_scale(correlation: float) -> float:
     """Factor that gives the spline through unit-variance AR(1) knots of neighbour `correlation` unit mean variance."""
+    # Over the middle one of forty intervals, in which neither end of the spline is felt.
     knots = np.arange(41)
     fine = np.linspace(20.0, 21.0, 65)[:-1] + 1.0 / 128.0
     weights = CubicSpline(knots, np.eye(knots.size), bc_type="natural")(fine)

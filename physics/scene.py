@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 from physics.bearing import RACES
 from physics.cage import CagePath
-from physics.checks import InvalidParameter, require, require_count, require_one_of, settle_tuples
+from physics.checks import require, require_count, require_one_of, settle_tuples
 from physics.imperfections import Imperfections
 from physics.operation import Operation
 from physics.rig import Rig
@@ -47,8 +47,8 @@ class Scene:
         settle_tuples(self, "spalls")
         bearing = self.rig.bearing
         require_one_of("contact_law", self.contact_law, CONTACT_LAWS)
-        if len({spall.race for spall in self.spalls}) > 1:
-            raise InvalidParameter("spalls on both races; all spalls of a scene must be on one race", "race")
+        one_race = len({spall.race for spall in self.spalls}) <= 1
+        require(one_race, "spalls on both races; all spalls of a scene must be on one race", "race")
         for spall in self.spalls:
             self._check_spall(spall)
         require_apart(self.spalls)

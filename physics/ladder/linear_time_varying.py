@@ -165,14 +165,12 @@ def _march(
 
 def _table(scene: Scene, samples: int, rate: float) -> tuple[Array, Array, Flags]:
     """Times (N,), table (N, 9) and who touches (N, M); raises SimulationFailed."""
-    contacts = assemble(scene)
     if repeats_with_the_balls(scene):
-        speed = scene.cage.mean_speed
-        period = scene.rig.bearing.spacing
-        steady = CagePath(speed, 1.5 * period / speed)
-        contacts = assemble(replace(scene, cage=steady))
+        speed, period = scene.cage.mean_speed, scene.rig.bearing.spacing
+        contacts = assemble(replace(scene, cage=CagePath(speed, 1.5 * period / speed)))
         time = np.linspace(0.0, period / speed, NODES_PER_SPACING + 1)
     else:
+        contacts = assemble(scene)
         time = np.arange(NODES_PER_SAMPLE * samples + 1) / (NODES_PER_SAMPLE * rate)
     loads = load_vector(scene, time)
     table, touching, lost = _linearise(contacts, time, loads)

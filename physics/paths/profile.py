@@ -185,12 +185,11 @@ def _rolled_path(spall: Spall, bearing: Bearing, fineness: int) -> DepthPath:
     measured, lips = spall.profile == "table", table_arcs(spall)
     surface = table_surface(spall) if measured else gap_surface(spall)
     ball = ball_of(bearing, spall.race)
-    rough = bool(spall.roughness_values)
+    rough = bool(spall.roughness_values) or turning_points(np.array(spall.table_depth)) > MOST_TURNS
     # The race ends where the table does, which may be within the spall: a ball can hang there.
     first, last = (lips[0], lips[-1]) if measured else (-spall.extent / 2.0, spall.extent / 2.0)
     step = max(ROLLED_STEP / ball.race_radius, (last - first) / MOST_STEPS)
     rolled = roll(surface, (first, last), ball, min(step, (last - first) / FEWEST_STEPS) / fineness, lips)
-    rough = rough or turning_points(np.array(spall.table_depth)) > MOST_TURNS
     path = rolled.path
     if rough:
         smooth = bumpy_branches(rolled)

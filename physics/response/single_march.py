@@ -43,6 +43,7 @@ def respond(scene: Scene, start: Array, grid: Grid, method: str, keep: Kept = AC
 
 def respond_by_reference(scene: Scene, start: Array, rate: float, samples: int, *, keep_state: bool) -> Trace:
     """Trace of `scene` by the slow reference method, at the instants k / rate, from the state `start` (12,)."""
+    # SciPy's solvers take a tenth of a second to load, for which only those who ask for the reference should wait.
     from physics.integrators.reference.integrate import integrate_reference
 
     motion = motion_model(scene)

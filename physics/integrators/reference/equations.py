@@ -109,8 +109,8 @@ def write_equations(scene: Scene) -> Equations:
         path=path,
         waves=np.array(
             [
-                [w.order, w.amplitude, w.phase, run.shaft_speed if w.race == "inner" else 0.0]
-                for w in scene.imperfections.waviness
+                [wave.order, wave.amplitude, wave.phase, scene.race_speed(wave.race)]
+                for wave in scene.imperfections.waviness
             ]
         ).reshape(-1, 4),
     )
@@ -124,7 +124,7 @@ def _spall_tables(scene: Scene) -> tuple[Array, Cubics]:
     rows, edges, cubics, first = [], [np.zeros(0)], [np.zeros((4, 0))], 0
     for spall in scene.spalls:
         nodes, cubic = _unpacked(build_path(spall, scene.rig.bearing))
-        speed = scene.operation.shaft_speed if spall.race == "inner" else 0.0
+        speed = scene.race_speed(spall.race)
         rows.append([spall.row - 1, spall.angle, spall.travel_sign, speed, first, first + nodes.size])
         edges.append(nodes)
         # One empty cubic per spall keeps edges and cubics in step.

@@ -28,8 +28,7 @@ RELATIVE_TOLERANCE, DISPLACEMENT_TOLERANCE = 1e-9, 1e-18
 LONGEST_STEP = 0.2
 # A change of contact is looked for at so many instants of a step, and located within so many seconds.
 LOOKS_PER_STEP, LOCATED_WITHIN = 8, 1e-13
-# s
-KINK_HALF_WIDTH = 1e-11
+KINK_HALF_WIDTH = 1e-11  # s
 # Steps allowed for each of the longest ones that a record has room for, and a fixed reserve.
 MOST_STEPS_PER_LONGEST, SPARE_STEPS = 200, 20_000
 

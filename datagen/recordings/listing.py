@@ -11,7 +11,7 @@ from datagen.errors import BadInput
 from datagen.recordings.label_table import TableRow
 from datagen.recordings.part_files import PartFiles
 from datagen.recordings.root import Root
-from datagen.recordings.settings import SPEEDS, Channel, merged
+from datagen.recordings.settings import Channel, merged
 from datagen.recordings.spec import Spec
 
 NOT_SETTINGS = ("name", "files", "leave_out", "table", "note_columns", "absent_files", "override")
@@ -74,7 +74,6 @@ def _requests(spec: Spec, part: PartFiles, path: Path, row: TableRow | None) -> 
     of_recording = {name: value for name, value in recording.given().items() if name not in NOT_SETTINGS}
     settings = merged(spec.defaults.given(), of_recording)
     if row:
-        _refuse_two_speeds(settings, row)
         settings = merged(settings, row.settings)
     for override in recording.override:
         if any(part.root.fits(path, pattern) for pattern in override.patterns):
@@ -91,18 +90,6 @@ def _require_text(path: Path, place: str) -> None:
     if shown != name:
         raise BadInput(
             "the name of this file is not UTF-8", file=place, field="file", value=shown, allowed="the file renamed"
-        )
-
-
-def _refuse_two_speeds(settings: dict[str, Any], row: TableRow) -> None:
-    before = [name for name in SPEEDS if name in settings]
-    now = [name for name in SPEEDS if name in row.settings]
-    if before and now:
-        raise BadInput(
-            f"two sources for the speed: the SPEC also states {before[0]}",
-            file=row.place,
-            field=now[0],
-            allowed="only one of them",
         )
 
 

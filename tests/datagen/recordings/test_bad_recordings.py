@@ -245,7 +245,6 @@ def test_records_of_unknown_bearings_may_be_in_several_splits(bring: Bring, mat:
         ("file;load_n\na.mat\n", "t.csv, line 2: 1 cells, but the table has 2 columns"),
         ("file,location\na.mat,iner\n", 't.csv, line 2: location = "iner"; allowed: none, outer, inner'),
         ("file,load_n\na.mat,much\n", 't.csv, line 2: load_n = "much"; allowed: a number from 0 to 1e+07, or'),
-        ("file,speed_rpm\na.mat,5\n", "t.csv, line 2: speed_rpm: two sources for the speed: the SPEC also states"),
         ("file,location\nz.mat,inner\n", "a.mat is not in the table t.csv; allowed: a row for each file"),
         ("file,location\na.mat,inner\nz.mat,inner\n", 't.csv, line 3: file = "z.mat": no such file below'),
         ("file,location\na.mat,inner\nsub,inner\n", 't.csv, line 3: file = "sub": this is a folder below'),

@@ -145,6 +145,14 @@ def test_overrides_go_before_tables_and_tables_before_the_rest(bring: Bring, mat
     assert json.loads(corpus.waveform(2, "provenance"))["notes"] == {"odd": True}
 
 
+def test_a_speed_of_a_label_table_goes_before_that_of_the_spec(bring: Bring, mat: Mat, tmp_path: Path) -> None:
+    for name in ("a.mat", "b.mat"):
+        mat(name)
+    (tmp_path / "t.csv").write_text("file,speed_rpm\na.mat,1200\nb.mat,\n")
+    text = '[[recording]]\nname = "all"\ntable = "t.csv"\nunit = "g"\nrate_hz = 1000\ny = "sig"\nspeed_hz = 30\n'
+    assert bring(text).labels["speed_rpm"].tolist() == [1200.0, 1800.0]
+
+
 def test_a_label_table_may_hold_the_numbers_of_every_bearing(bring: Bring, mat: Mat, tmp_path: Path) -> None:
     for name in ("a.mat", "b.mat"):
         mat(name, slow=np.full((50, 1), 600.0))

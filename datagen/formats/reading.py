@@ -28,6 +28,8 @@ PACKED = (GZIP, "bz2", "xz", "zst", "zip", "7z", "rar", "tar", "tgz")
 
 # How a text begins that Git LFS leaves where the data itself was not fetched.
 POINTER = b"version https://git-lfs"
+# How a web page begins that a failed download left in place of the file.
+PAGES = (b"<!doctype html", b"<html")
 
 
 def file_format(path: Path, stated: str | None) -> str:
@@ -51,21 +53,24 @@ def file_format(path: Path, stated: str | None) -> str:
     return kind
 
 
-def _refuse_pointer(path: Path) -> None:
+def _refuse_stand_in(path: Path) -> None:
     with path.open("rb") as file:
-        if file.read(len(POINTER)) == POINTER:
-            raise BadInput(
-                "holds no data but where Git LFS keeps it",
-                file=str(path),
-                allowed="the data, as `git lfs pull` fetches it",
-            )
+        begin = file.read(64)
+    if begin.startswith(POINTER):
+        raise BadInput(
+            "holds no data but where Git LFS keeps it",
+            file=str(path),
+            allowed="the data, as `git lfs pull` fetches it",
+        )
+    if begin.lstrip().lower().startswith(PAGES):
+        raise BadInput("is a web page, as of a download that failed", file=str(path), allowed="the data itself")
 
 
 def read_arrays(path: Path, stated: str | None, layout: CsvLayout) -> Arrays:
     """The arrays of a file whose format is `stated` or follows from its ending; raises BadInput."""
     kind = file_format(path, stated)
     try:
-        _refuse_pointer(path)
+        _refuse_stand_in(path)
         return read_csv(path, layout) if kind == "csv" else READERS[kind](path)
     except OSError as problem:
         raise unreadable(path, problem) from None

@@ -14,6 +14,13 @@ from datagen.settings.toml_lines import Location, line_of
 from physics.spelling import suggestion
 
 MOST_LISTED = 16
+# What settings are called elsewhere, where another name lies nearer by its letters.
+CALLED_ELSEWHERE = {
+    **dict.fromkeys(("fs", "sr", "sample_rate", "sampling_rate", "sampling_frequency"), "rate_hz"),
+    **dict.fromkeys(("label", "fault", "fault_type"), "location"),
+    "sensitivity": "scale",
+    "geometry": "bearing",
+}
 # Errors of a value that is no number of the kind wanted, which do not tell its range.
 NO_NUMBER = ("int_type", "int_from_float", "float_type", "finite_number")
 SCALARS = ("str", "float", "int", "bool")
@@ -130,7 +137,8 @@ def _problem(first: _Error, location: Location, model: type[BaseModel]) -> str:
         if homes:
             return f"unknown key here; it belongs {' or '.join(homes)}"
         known = _keys_beside(location, model)
-        hint = suggestion(str(location[-1]), known)
+        meant = CALLED_ELSEWHERE.get(str(location[-1]).lower())
+        hint = f'; did you mean "{meant}"?' if meant in known else suggestion(str(location[-1]), known)
         listed = f" (known here: {', '.join(known)})" if not hint or len(known) <= MOST_LISTED else ""
         return f"unknown key{hint}{listed}"
     misplaced = _settings_beside(first, location, model) if first.kind == "distribution" else []

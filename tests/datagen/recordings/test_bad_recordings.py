@@ -74,6 +74,8 @@ def test_a_setting_that_is_wrong_or_missing_is_named(
         ('speed_rpm = 5\ntach = {variable = "sig"}', "speed_rpm and tach set the same thing twice"),
         ('speed_rpm = {variable = "rpm"}', 'a.mat: speed_rpm = "rpm": the file has no such variable'),
         ('scale = {variable = "sig"}\nscall = 3', 'unknown key; did you mean "scale"?'),
+        ("sampling_rate = 12000", 'sampling_rate: unknown key; did you mean "rate_hz"?'),
+        ('label = "inner"', 'label: unknown key; did you mean "location"?'),
         ("scale = 0", "spec.toml: recording[1] (all): scale = 0.0; allowed: any number but 0"),
         (
             "to_s = 0.5",

@@ -72,6 +72,13 @@ def test_a_pointer_of_git_lfs_is_not_taken_for_a_damaged_file(name: str, tmp_pat
         read_arrays(tmp_path / name, None, CsvLayout())
 
 
+@pytest.mark.parametrize("name", ["a.mat", "a.csv", "a.wav", "a.npz", "a.h5"])
+def test_a_web_page_is_not_taken_for_a_damaged_file(name: str, tmp_path: Path) -> None:
+    (tmp_path / name).write_text("\n<!DOCTYPE html>\n<html><body>404</body></html>\n")
+    with pytest.raises(BadInput, match="is a web page, as of a download that failed; allowed: the data itself"):
+        read_arrays(tmp_path / name, None, CsvLayout())
+
+
 @pytest.mark.parametrize("name", ["short.wav", "float.wav", "classic.nc", "a.npy", "a.npz", "packed.npz"])
 def test_whatever_bytes_are_damaged_a_file_is_read_or_refused_with_its_name(name: str, tmp_path: Path) -> None:
     path = tmp_path / name

@@ -18,6 +18,8 @@ from datagen.settings.problems import bad_settings
 from physics.spelling import suggestion
 
 FILE_COLUMN = "file"
+# Sizes, which many tables give as 0 where a bearing is healthy.
+SIZES = ("extent_mm", "extent_deg", "depth_um")
 NOT_COLUMNS = ("csv", "channel", "tach", "envelope_band_hz", "notes")
 SETTINGS = tuple(name for name in RecordingSettings.model_fields if name not in NOT_COLUMNS)
 WITH_POINT = re.compile(r"[-+]?\d+\.\d+")
@@ -113,6 +115,8 @@ def _row(header: list[str], cells: list[str], note_columns: tuple[str, ...], pla
         raise BadInput("this cell is empty", file=place, field=FILE_COLUMN)
     notes: dict[str, Any] = {name: _plain(said.pop(name), decimal) for name in note_columns if name in said}
     settings = {name: _setting(name, cell, decimal) for name, cell in said.items()}
+    if settings.get("location") == "none" or settings.get("condition") == "healthy":
+        settings = {name: value for name, value in settings.items() if name not in SIZES or value != 0}
     try:
         checked = RecordingSettings.model_validate(settings | ({"notes": notes} if notes else {}))
     except ValidationError as error:

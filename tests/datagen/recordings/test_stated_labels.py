@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 from pathlib import Path
 
 import numpy as np
@@ -143,6 +144,22 @@ def test_overrides_go_before_tables_and_tables_before_the_rest(bring: Bring, mat
     assert table["bearing_id"].tolist() == ["x", "y", "unknown"]
     assert corpus_info(corpus.folder).bearings_text == "2 (unknown 2); 1 record of unknown ones"
     assert json.loads(corpus.waveform(2, "provenance"))["notes"] == {"odd": True}
+
+
+def test_a_size_of_nothing_in_a_label_table_is_that_of_a_healthy_bearing(
+    bring: Bring, mat: Mat, tmp_path: Path
+) -> None:
+    for name in ("a.mat", "b.mat"):
+        mat(name)
+    spec = '[[recording]]\nname = "all"\ntable = "t.csv"\nunit = "g"\nrate_hz = 1000\ny = "sig"\n'
+    (tmp_path / "t.csv").write_text("file,location,extent_mm,depth_um\na.mat,none,0,0.0\nb.mat,outer,1.5,\n")
+    labels = bring(spec).labels
+    assert labels["condition"].tolist() == ["healthy", "unknown"]
+    assert labels["extent_mm"].tolist() == [0.0, 1.5]
+    shutil.rmtree(tmp_path / "corpus")
+    (tmp_path / "t.csv").write_text("file,location,extent_mm\na.mat,none,0\nb.mat,outer,0\n")
+    with pytest.raises(BadInput, match=r"t\.csv, line 3: extent_mm = 0"):
+        bring(spec)
 
 
 def test_a_speed_of_a_label_table_goes_before_that_of_the_spec(bring: Bring, mat: Mat, tmp_path: Path) -> None:

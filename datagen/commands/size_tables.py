@@ -53,12 +53,14 @@ def _reach(mean: Interval) -> str:
 
 def estimates_table(records: list[ScoredRecord]) -> Table:
     """Size of the spall of every record with its 90 % intervals, or in words why none is given."""
-    table = Table(
-        caption="In brackets 90 % intervals. Trust: 1 less the relative error to be expected of the time between the "
-        "events.\nThat time tells a size only up to whole ball spacings: the longer candidates are in the files. Where "
+    trust_means = "Trust: 1 less the relative error to be expected of the time between the events."
+    sizes_mean = (
+        "\nThat time tells a size only up to whole ball spacings: the longer candidates are in the files. Where "
         "an exit and the\nnext entry were taken for entry and exit, the spall is what the size lacks of a ball "
         'spacing, which\nstands after "or" where it is shorter, and in the files.'
     )
+    sized = any(record.found for record in records)
+    table = Table(caption=f"In brackets 90 % intervals. {trust_means}{sizes_mean}" if sized else trust_means)
     for name in ("record", "recording", "race", "extent, °", "extent, mm", "trust", "why there is no estimate"):
         table.add_column(name, justify="right" if name in ("record", "trust") else "left")
     for record in records:

@@ -119,10 +119,13 @@ def _words_above(text: str, column: Array) -> int:
 
 def above_hint(rows: list[Row], layout: CsvLayout) -> str:
     """A remark on how many lines are above those `rows`, most of all, that have as many cells as the last; empty if
-    there are none."""
+    there are none, or if among them are numbers of the table, which one odd line parts from the rest."""
     width = len(rows[-1][1])
     table = rows[len(rows) - sum(1 for _ in takewhile(lambda row: len(row[1]) == width, reversed(rows))) :]
     if not len(rows) / 2 < len(table) < len(rows):
+        return ""
+    above = rows[: len(rows) - len(table)]
+    if any(len(cells) == width and all(math.isfinite(layout.number(cell)) for cell in cells) for _, cells in above):
         return ""
     line, cells = table[0]
     headless = layout.header and any(math.isfinite(layout.number(cell)) for cell in cells)

@@ -86,6 +86,12 @@ def test_a_cell_that_is_no_number_is_shown_with_its_line(
     assert str(problem.value) == f"{tmp_path / 'a.csv'}, {message}"
 
 
+def test_an_odd_line_amid_numbers_is_no_header_that_takes_those_above_with_it(bring: Bring, tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("\n".join(["1,2"] * 9 + ["1,2,3"] + ["1,2"] * 50))
+    with pytest.raises(BadInput, match=r"line 10: 3 cells, but the table has 2 columns; allowed: as many"):
+        bring(f"{SPEC}csv = {{header = false}}\n")
+
+
 def test_a_column_may_have_the_sign_of_alternatives_in_its_name(bring: Bring, tmp_path: Path) -> None:
     (tmp_path / "a.csv").write_text("RPM|1,a\n" + "1500,1.0\n" * 8 + "1500,2.0\n" * 12)
     corpus = bring(f'{SPEC}speed_rpm = {{variable = "RPM|1"}}\n')

@@ -210,8 +210,7 @@ class RecordingSettings(Table):
         return {name: value for name, value in values.items() if value is not None}
 
 
-SPEEDS = ("speed_rpm", "speed_hz", "tach")
-ALTERNATIVES = (SPEEDS, ("extent_mm", "extent_deg"))
+ALTERNATIVES = (("speed_rpm", "speed_hz", "tach"), ("extent_mm", "extent_deg"))
 REPLACED_BY = {name: group for group in ALTERNATIVES for name in group} | {
     "x": ("channel",),
     "y": ("channel",),

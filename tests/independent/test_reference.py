@@ -14,12 +14,15 @@ from physics.integrators.reference import integrate as reference
 from physics.integrators.reference.integrate import integrate_reference
 from physics.operation import Operation
 from physics.outcome import Outcome, SimulationFailed
-from physics.request import Reference
+from physics.reference_scenes import reference_scene
+from physics.request import FixedSteps, Reference
+from physics.rms import relative_error
 from physics.scene import Scene
 from physics.simulate import simulate
 from physics.spall import Spall
 
 RATE = 65536.0
+METHODS = "exponential_rk4", "runge_kutta4"
 FAN = rig("fan")
 
 
@@ -60,6 +63,14 @@ def test_the_reference_agrees_with_the_independent_replay(law):
     expected = replay(scene, substeps=64)["acceleration"]
     error = np.sqrt(np.mean((found - expected) ** 2) / np.mean(expected**2))
     assert error < 2e-3  # the replay's own error: 5e-4 over half a second, more over a few passes
+
+
+@pytest.mark.parametrize("name", ["G1", "G2", "F2"])
+def test_the_reference_is_as_near_as_the_finest_steps_of_two_other_methods_can_tell(name):
+    scene = reference_scene(name, 0.03)
+    fine, other = (simulate(scene, RATE, FixedSteps(128, method)).acceleration for method in METHODS)
+    assert relative_error(other, fine) < 5e-8
+    assert relative_error(simulate(scene, RATE, Reference()).acceleration, fine) < 1.5e-7
 
 
 def test_the_located_changes_happen_where_the_compression_is_zero():

@@ -78,6 +78,13 @@ def test_pink_noise_has_its_slope_its_rms_and_nothing_below_its_lowest_frequency
     assert np.mean(drawn**2) == pytest.approx(2.5**2, rel=0.07)
 
 
+def test_pink_noise_falls_with_the_frequency_from_1_hz_on_unless_it_is_said_otherwise():
+    # The integral of c / f from 1 Hz to half the rate is c ln(rate / 2).
+    expected = 1.5**2 / (np.log(RATE / 2.0) * np.array([1.0, 2.0, 1000.0]))
+    assert pink_density(PinkNoise(1.5), np.array([1.0, 2.0, 1000.0]), RATE) == pytest.approx(expected, rel=1e-12)
+    assert pink_density(PinkNoise(1.5), np.array([0.999]), RATE) == 0.0
+
+
 def test_the_density_of_pink_noise_integrates_to_its_power_and_does_not_know_the_records_length():
     frequency = np.linspace(16.0, RATE / 2.0, 2_000_001)
     for slope in (0.0, 0.7, 1.0, 1.0 + 1e-6, 1.05, 2.0):

@@ -27,6 +27,11 @@ def test_by_default_the_sensor_shows_the_resonators_acceleration_alone(trace):
     assert sensed(SensorChain(), trace) is trace.acceleration
 
 
+@pytest.mark.parametrize("gain", [0.0, 0.5, 3.0])
+def test_the_gain_multiplies_the_resonator_alone(trace, gain):
+    assert np.array_equal(sensed(SensorChain(resonator_gain=gain), trace), gain * trace.acceleration)
+
+
 def test_modes_add_to_the_resonator_and_the_mounting_comes_last(trace):
     parts = [mode_accelerations([mode], trace.outer) for mode in MODES]
     together = 0.5 * trace.acceleration + parts[0] + parts[1]

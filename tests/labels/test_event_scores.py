@@ -1,3 +1,5 @@
+import math
+
 import numpy as np
 import pytest
 from scipy.sparse import csr_array
@@ -28,6 +30,21 @@ def test_scores_add_up_and_nothing_gives_nothing():
     assert total == EventScores(3, 4, 5)
     assert np.isnan(EventScores(0, 0, 0).f1)
     assert EventScores(0, 0, 4).recall == 0.0
+
+
+@pytest.mark.parametrize(
+    ("scores", "precision", "recall", "f1"),
+    [
+        (EventScores(0, 3, 4), 0.0, 0.0, 0.0),
+        (EventScores(0, 0, 4), math.nan, 0.0, 0.0),
+        (EventScores(0, 3, 0), 0.0, math.nan, 0.0),
+        (EventScores(0, 0, 0), math.nan, math.nan, math.nan),
+        (EventScores(3, 4, 6), 0.75, 0.5, 0.6),
+    ],
+)
+def test_only_what_there_is_nothing_to_share_has_no_score(scores, precision, recall, f1):
+    found = (scores.precision, scores.recall, scores.f1)
+    assert found == pytest.approx((precision, recall, f1), nan_ok=True)
 
 
 def test_a_tolerance_in_arc_is_a_share_of_the_pass():

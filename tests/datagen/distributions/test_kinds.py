@@ -144,6 +144,7 @@ def test_rounding_takes_no_draw_beyond_the_ends() -> None:
         ({"uniform": [1, math.inf]}, "a finite number"),
         ({"log_uniform": [0, 1]}, "must be above 0"),
         ({"normal": [1, -2]}, "standard deviation must be above 0"),
+        ({"normal": [1, 0]}, "standard deviation must be above 0"),
         ({"normal": [1, 2], "low": 3, "high": 2}, "low must be below high"),
         ({"normal": [1, 2], "low": 30}, "less than one draw in a million"),
         ({"normal": [1, 2], "lo": 0}, 'did you mean "low"'),

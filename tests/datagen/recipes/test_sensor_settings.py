@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import shutil
+import tomllib
 from contextlib import nullcontext
 from pathlib import Path
 
@@ -314,3 +316,16 @@ def test_a_recording_lasts_as_long_as_the_longest_record_that_can_be_drawn(folde
 def test_a_noise_band_may_end_at_half_the_rate(tmp_path: Path) -> None:
     text = "[part.background]\nwhite_rms_m_s2 = 1\nsnr_band_hz = [1000, 16384]"
     assert load(tmp_path, text).part[0].background.snr_band_hz == (1000.0, 16384.0)
+
+
+def test_half_the_rate_lies_above_the_resonance_of_a_rig_of_the_catalogue(tmp_path: Path) -> None:
+    # Petersen et al. 2014, Table 2: 371.5 MN/m between 0.1 kg and a free ring of 2.5 kg.
+    hertz = math.sqrt(371.5e6 * (1.0 / 0.1 + 1.0 / 2.5)) / math.tau
+    path, content = tmp_path / "recipe.toml", tomllib.loads(BASE)
+    content["signal"]["rate_hz"] = 2.0 * hertz + 1.0
+    assert parse_recipe(content, path).count == 1
+    content["signal"]["rate_hz"] = 2.0 * hertz - 1.0
+    with pytest.raises(BadInput, match=rf'rig = "fan": its resonance at {hertz:.0f} Hz must lie below half'):
+        parse_recipe(content, path)
+    content["signal"]["envelope_band_hz"] = [2000.0, 5000.0]
+    assert parse_recipe(content, path).count == 1

@@ -9,6 +9,10 @@ def test_the_step_of_16_bits_over_plus_and_minus_500_is_a_65536th_of_1000():
     assert Recorder(500.0, 16).step == 1000.0 / 65536.0
 
 
+def test_a_recorder_has_16_bits_unless_it_is_said_otherwise():
+    assert Recorder(32.768).step == pytest.approx(1e-3, rel=1e-12)
+
+
 def test_a_signal_within_the_range_moves_by_at_most_half_a_step():
     recorder, signal = Recorder(10.0, 12), np.random.default_rng(1).uniform(-9.9, 9.9, (5000, 2))
     kept, clipped = recorded(recorder, signal)

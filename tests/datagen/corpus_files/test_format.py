@@ -69,6 +69,12 @@ def test_durations_among_the_attributes_are_those_of_iso_8601_which_knows_no_pow
     assert (found["time_coverage_duration"], found["time_coverage_resolution"]) == attributes
 
 
+def test_rows_and_balls_count_from_1(dataset: xarray.Dataset) -> None:
+    rows, balls = (dataset.sizes[name] for name in ("row", "ball"))
+    assert dataset["row"].values.tolist() == [1, 2][:rows]
+    assert dataset["ball"].values.tolist() == [*range(1, balls + 1)]
+
+
 def test_texts_are_readable_with_plain_netcdf4(dataset: xarray.Dataset, tmp_path: Path) -> None:
     with netCDF4.Dataset(stored(dataset, tmp_path / "a.nc")) as opened:
         assert opened["scenario"][0] == '{"record": 4, "umlaut": "ü"}'

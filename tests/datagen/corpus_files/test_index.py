@@ -96,6 +96,16 @@ def test_an_index_with_a_lost_column_is_refused(folder: Path) -> None:
         read_index(folder)
 
 
+@pytest.mark.parametrize("column", ["rate_hz", "duration_s"])
+def test_an_index_of_records_without_rate_or_duration_is_refused(folder: Path, column: str) -> None:
+    read = pandas.read_csv(index_path(folder), keep_default_na=False)
+    read[column] = read[column].astype(str)
+    read.loc[1, column] = "0.0"
+    read.to_csv(index_path(folder), index=False)
+    with pytest.raises(BadInput, match=rf"line 3: not the index of a corpus: {column} = 0\.0 is not above 0"):
+        read_index(folder)
+
+
 def test_an_index_is_written_row_by_row_whatever_its_length(tmp_path: Path) -> None:
     def sidecars() -> Iterator[Any]:
         for shard in range(100):

@@ -52,3 +52,13 @@ def test_a_drifting_sensor_is_no_blow(drift):
     steady, found = (signal_features(signal, RATE, bearing) for signal in (NOISE, NOISE + drift))
     for name in ("band_kurtosis", "flat_kurtosis"):
         assert found[name] == pytest.approx(steady[name], abs=0.15)
+
+
+@pytest.mark.parametrize(("apart", "taken_out"), [(0.98, False), (1.02, True), (-1.02, True)])
+def test_ends_may_lie_a_standard_deviation_within_a_turn_apart(apart, taken_out):
+    # Samples of ±1 deviate by 1. Levels of 50 turns, straight on to the ends, lie 50 of their steps apart.
+    turn = TIME.size // 50
+    signal = np.tile([1.0, -1.0], TIME.size // 2) + np.repeat(np.arange(50.0) * apart / 50.0, turn)
+    found = without_drift(signal, TURNS)
+    assert (found is not signal) == taken_out
+    assert abs(found[-turn:].mean() - found[:turn].mean()) == pytest.approx(0.0 if taken_out else 0.98 * 0.98, abs=0.03)

@@ -1,7 +1,7 @@
 """What is drawn where: each panel's lines, bars and colours are those of the quantities its labels name."""
 
 import math
-from dataclasses import replace
+from dataclasses import fields, replace
 
 import numpy as np
 import pytest
@@ -20,6 +20,7 @@ from datagen.drawing.time_panels import (
     draw_stiffness,
     draw_trace,
 )
+from labels.truth import PassTable
 
 MS = 1e3
 
@@ -75,6 +76,16 @@ def test_a_bar_runs_from_entry_to_exit_of_each_pass_and_tells_whether_its_ball_i
     words = [text.get_text().strip() for text in axes.texts]
     assert len(words) > 1
     assert words == [f"ball {ball} of row 1" for ball in table.ball[shown]][: len(words)]
+
+
+def test_passes_that_an_end_of_the_close_up_cuts_are_drawn_too(portrait):
+    drawn = portrait("line, outer")
+    table = PassTable(**{field.name: getattr(drawn.passes, field.name)[:6] for field in fields(PassTable)})
+    drawn = replace(drawn, passes=replace(table, complete=np.zeros(6, bool)))  # the close-up is then in the middle
+    start, span = drawn.window[0], drawn.window[1] - drawn.window[0]
+    entry, leave = np.array([[-0.5, -0.3, -0.2, 0.4, 0.9, 1.2], [-0.1, 1.4, 0.1, 0.5, 1.3, 1.5]]) * span + start
+    axes = panel_of(draw_passes, replace(drawn, passes=replace(drawn.passes, entry_time=entry, exit_time=leave)))
+    assert [bar.get_x() for bar in axes.patches] == pytest.approx(MS * entry[1:5])
 
 
 def test_the_stiffness_along_the_load_is_on_the_left_and_that_across_it_on_the_right(portrait):

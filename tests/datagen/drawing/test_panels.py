@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from matplotlib.colors import to_rgba
 
-from datagen.drawing.decibel_panel import NUMBER_HEIGHT, mark_frequencies
+from datagen.drawing.decibel_panel import NUMBER_HEIGHT, draw_decibels, mark_frequencies
 from datagen.drawing.frequency_panels import draw_envelope_spectrum, draw_spectrum
 from datagen.drawing.path_panels import draw_element_load, draw_path, load_over_spall
 from datagen.drawing.sheet import draw_sheet
@@ -256,6 +256,18 @@ def test_the_words_of_the_band_lie_in_the_panel(band, side, place):
     draw_spectrum(axes, np.random.default_rng(1).standard_normal(2000), 32_768.0, band)
     (words,) = axes.texts
     assert (words.get_ha(), words.xy[0]) == (side, pytest.approx(place))
+
+
+def test_decibels_are_below_the_largest_power_of_all_frequencies_those_not_drawn_included():
+    axes = with_panels(figsize=(6.0, 3.0))[1]
+    power = np.array([[1.0, 2.0], [0.5, 4.0], [1000.0, 100.0]])
+    frequency = np.array([100.0, 200.0, 300.0])
+    draw_decibels(axes, np.array([0.1, 0.2]), frequency, power, span=70.0, top=250.0)
+    (map_,) = axes.collections
+    # A thousandth lies 30 dB below, and a factor of 2 is 3.0103 dB.
+    expected = [-30.0, -26.9897, -33.0103, -23.9794]
+    assert np.asarray(map_.get_array()).ravel() == pytest.approx(expected, abs=1e-4)
+    assert map_.get_clim() == (-70.0, 0.0)
 
 
 def test_numbers_of_close_modes_stand_one_above_the_other():

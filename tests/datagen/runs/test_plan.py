@@ -61,6 +61,17 @@ def test_the_size_of_a_record_counts_every_stored_signal(tiny: Recipe) -> None:
     assert 0.3 * always < stored_bytes(scenario, (), "zlib") < always
 
 
+def test_the_long_axes_of_a_shard_take_eight_bytes_a_node(tiny: Recipe) -> None:
+    plain = tiny.model_copy(update={"store": tiny.store.model_copy(update={"compression": "none"})})
+    scenario = draw_scenario(plain, 0)
+    time = np.arange(scenario.samples) / scenario.rate
+    profile = np.zeros(PROFILE_POINTS if "profile_depth" in plan_shards(plain, 1)[0].stored else 0)
+    expected = time.nbytes + stiffness_axis(scenario).nbytes + profile.nbytes
+    assert plan_shards(plain, 1)[0].axis_bytes == expected
+    # Even steps are deflated to a tenth of that.
+    assert plan_shards(tiny, 1)[0].axis_bytes == pytest.approx(0.1 * expected)
+
+
 def test_the_size_said_beforehand_is_near_that_of_the_corpus(tiny: Recipe, tiny_corpus: Path) -> None:
     said = needed_bytes(plan_shards(tiny, tiny.count))
     assert 0.7 < said / sum(path.stat().st_size for path in (tiny_corpus / "shards").glob("*.nc")) < 1.4

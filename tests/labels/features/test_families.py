@@ -8,7 +8,8 @@ import pytest
 from labels.features.conditioning import condition, local_mean_power
 from labels.features.envelopes import envelope_spectra
 from labels.features.families import evidence, find_family, harmonic_evidence, sideband_evidence, tempered
-from labels.features.known_lines import mains_components, near_multiples, without_shaft
+from labels.features.kinematics import Kinematics
+from labels.features.known_lines import mains_components, near_multiples, races_in_mains, without_shaft
 from labels.features.lines import Lines, lines_in
 from labels.features.modulation import line_strength
 
@@ -258,3 +259,12 @@ def test_the_floor_under_a_slope_is_the_slope():
     power = np.exp(-np.arange(4000) / 400.0)
     # A block's median of e^(-x) is its middle's value, over ln 2; the axis ends half a block beyond the first and last.
     assert local_mean_power(power, 100)[50:3950] == pytest.approx(power[50:3950] / np.log(2.0), rel=0.01)
+
+
+@pytest.mark.parametrize(
+    ("bpfo_hz", "hidden"), [(100.5, ("outer",)), (101.0, ("outer",)), (101.7, ()), (99.0, ("outer",))]
+)
+def test_a_race_lies_in_the_mains_as_far_as_slip_and_the_mains_itself_move_both(bpfo_hz, hidden):
+    # Near 100 Hz the cage's speed scatters by 0.7 Hz, mains and stated rate are off by 0.6 Hz, a component is 0.1 Hz.
+    # Eight balls of a quarter of the pitch diameter pass the outer race 3 times a turn and the inner one 5 times.
+    assert races_in_mains(Kinematics(8, 0.25, 1.9, bpfo_hz / 3.0), 0.1) == hidden

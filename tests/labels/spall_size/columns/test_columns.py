@@ -382,3 +382,9 @@ def test_rows_hold_their_columns_in_the_order_of_the_table():
     assert row[: len(PAIR_COLUMNS)].tolist() == [1.0] * len(PAIR_COLUMNS)
     assert row[LEADING_COLUMNS.index("own_score")] == 0.25
     assert row[LEADING_COLUMNS_WITH_LOAD.index("deviation_over_load")] == pytest.approx(math.log(4.0 / 500.0))
+
+
+@pytest.mark.parametrize(("half", "lags"), [(193.5, [13.0, 387.0]), (194.5, [11.0])])
+def test_the_lag_of_two_events_is_below_0_97_periods(half, lags):
+    # That is 388 of the 400 samples of a period; the other way round the rest of it is the lag.
+    assert sorted(all_pairs(known_pass(), np.array([-half, half]), FACTS).lag.tolist()) == lags

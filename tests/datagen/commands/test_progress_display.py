@@ -1,6 +1,6 @@
 """How progress is shown."""
 
-from datagen.commands.progress_display import CLEARED, show_steps
+from datagen.commands.progress_display import CLEARED, Lines, show_steps
 
 
 def test_progress_is_plain_lines_where_it_is_piped(capsys):
@@ -17,3 +17,11 @@ def test_on_a_terminal_a_sentence_that_stays_takes_the_changing_line_away_first(
         listener.step("1 of 2")
         listener.say("half of it")
         assert capfd.readouterr() == ("half of it\n", f"{CLEARED}1 of 2{CLEARED}")
+
+
+def test_the_pace_of_a_run_that_goes_on_is_that_of_its_own_records(capsys):
+    clock = iter([0.0, 10.0])
+    lines = Lines(lambda: next(clock))
+    lines.advance(100, 200)
+    lines.advance(120, 200)  # 20 in 10 s, and 80 are left
+    assert capsys.readouterr().err == "100 of 200 records\n120 of 200 records, 2.00 records/s, 40 s left\n"

@@ -17,6 +17,7 @@ from physics.statics.ball_load import ball_load
 from physics.statics.load_distribution import (
     OUTCOMES,
     equilibrium,
+    instants_without_period,
     load_range,
     load_vector,
     require_equilibrium,
@@ -255,3 +256,16 @@ def test_the_first_instant_is_told_at_which_a_growing_load_is_not_carried(gearbo
 
 def test_every_status_names_one_outcome():
     assert list(OUTCOMES.values()) == list(StaticOutcome)
+
+
+@pytest.mark.parametrize("count", [64, 10])
+def test_instants_without_period_see_the_mean_of_a_swing_whatever_its_period(count):
+    instants = instants_without_period(0.3, count)
+    assert instants.size == count
+    assert 0.0 <= instants[0] < instants[-1] < 0.3
+    assert (np.diff(instants) > 0.0).all()
+    golden = (math.sqrt(5.0) - 1.0) / 2.0
+    for swings in (1, 2, count // 2, count, 2 * count):
+        # A geometric series: of n terms exp(2πi h k g) the mean is below 1 / (n |sin πhg|).
+        mean = abs(np.exp(2j * np.pi * swings * instants / 0.3).mean())
+        assert mean <= 1.0001 / (count * abs(math.sin(math.pi * swings * golden)))

@@ -43,3 +43,8 @@ def test_of_a_signal_that_is_silent_most_of_the_time_the_unit_is_no_rounding():
     residual = prewhitened(np.concatenate([clicks, -clicks])).residual
     assert np.median(np.abs(residual)) == 0.0
     assert np.isfinite(np.sum(residual**2))
+
+
+def test_what_has_no_whole_past_is_not_foretold_and_has_no_residual():
+    residual = prewhitened(100.0 + np.random.default_rng(1).standard_normal(5000)).residual
+    assert np.count_nonzero(residual) == np.count_nonzero(residual[30:]) == 5000 - 30

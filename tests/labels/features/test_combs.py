@@ -253,3 +253,14 @@ def test_knocks_that_pass_for_a_race_at_a_wrong_speed_move_no_nominal_speed(impu
     found = analyse(impulse_train(order, duration=2.0, shaft_hz=SHAFT, snr_db=0.0), 20_000.0, nominal)
     assert found.speed.shaft_hz == pytest.approx(SHAFT, rel=0.003)
     assert found.race_family(found.envelope_lines, "inner").evidence.max() < 8.0
+
+
+def test_the_six_lines_of_a_comb_that_a_short_spectrum_holds_do_not_speak_against_it():
+    """They are a tenth of its components: lines that stood out by chance so often would be six in a row too likely."""
+    known, step, count = bearing_kinematics(9, 39.04e-3, 7.94e-3, 0.0, 25.0), 1.0, 220
+    excess, rate = np.ones((1, count)), 1.31 * 25.0
+    for place in np.arange(1, 7) * rate:
+        away = np.arange(count) - place
+        excess[0] += 40.0 * np.where(np.abs(away) < 1.0, np.cos(0.5 * np.pi * away) ** 2, 0.0)
+    found = foreign_combs(excess, step, known, np.ones(count, bool))
+    assert found == pytest.approx([rate], rel=0.01)

@@ -2,7 +2,7 @@
 
 Its virtual machines are divided into fifths, and each is judged by the rule and by learners of the other four. That is
 steadier than one split "test", whose machines may happen to be hard ones. The scores of all records together are kept
-in docs/crossfitted.json, and the table is written into docs/transfer.md.
+in docs/crossfitted.json, and the tables are written into docs/transfer.md.
 """
 
 from __future__ import annotations
@@ -26,8 +26,10 @@ from datagen.benchmark.training import train_models, train_rule, training_record
 from datagen.benchmark.verdicts import Judges, Tested, pool
 from datagen.corpus import Corpus
 from datagen.files.text_tables import markdown_table
+from labels.schema import CONDITIONS
 
 FOLDS = 5
+CONDITION, CONFUSION = "condition_balanced_accuracy", "condition_confusion"
 
 
 def judged_by_others(folder: Path) -> list[Tested]:
@@ -73,11 +75,32 @@ def table(kept: dict[str, Any]) -> str:
     return f"{markdown_table(head, rows)}\n\n{records}; its machines in {kept['folds']} parts."
 
 
+def conditions(kept: dict[str, Any]) -> str:
+    """One row a learner: how well it tells healthy, line and extended, and what it calls those of each."""
+    scores = kept["scores"]
+    counts = {name: said[CONFUSION]["counts"] for name, said in scores["models"].items() if CONFUSION in said}
+    head = [
+        "model",
+        "healthy, line and extended",
+        *(f"{truth}: called {', '.join(CONDITIONS)}" for truth in CONDITIONS),
+    ]
+    rows = [
+        [
+            name,
+            interval(scores["models"][name][CONDITION]),
+            *(", ".join(map(str, row[: len(CONDITIONS)])) for row in told),
+        ]
+        for name, told in counts.items()
+    ]
+    return markdown_table(head, rows)
+
+
 def main(folder: Path) -> None:
-    """Judge, keep the scores and write the table."""
+    """Judge, keep the scores and write the tables."""
     kept = report(folder, summarise(pool(judged_by_others(folder))))
     CROSSFITTED.write_text(json.dumps(kept, indent=1) + "\n", encoding="utf-8")
-    write_marked(PAGE, "crossfitted", __file__, table(kept))
+    for name, made in (("crossfitted", table), ("conditions", conditions)):
+        write_marked(PAGE, name, __file__, made(kept))
 
 
 if __name__ == "__main__":

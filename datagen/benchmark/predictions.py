@@ -21,18 +21,19 @@ FACTS = (
     *RecordFacts().shown(),
     "found_speed_rpm",
 )
-SAID = ("location", "score", "alarm")
+SAID = ("location", "condition", "score", "alarm")
 
 
 @dataclass(frozen=True)
 class ModelAnswer:
     """What one model says about a record: the location, a score, and the alarm above which a spall is called (0 if the
-    record's lines alone raise it); and probabilities of LOCATIONS and CONDITIONS by name, if the model gives any.
-    Numbers are NaN without features."""
+    record's lines alone raise it); and, if the model gives probabilities, the condition and those of LOCATIONS and
+    CONDITIONS by name. Numbers are NaN without features."""
 
     location: str
     score: float
     alarm: float
+    condition: str | None = None
     location_probability: dict[str, float] | None = None
     condition_probability: dict[str, float] | None = None
 
@@ -103,6 +104,7 @@ def _answer(said: Verdicts, place: int) -> ModelAnswer:
     probability = said.probability[place : place + 1]
     return ModelAnswer(
         *numbers,
+        condition=str(said.condition[place]),
         location_probability=dict(zip(LOCATIONS, location_probability(probability)[0].tolist(), strict=True)),
         condition_probability=dict(zip(CONDITIONS, condition_probability(probability)[0].tolist(), strict=True)),
     )

@@ -45,6 +45,11 @@ def test_a_page_holds_the_table_of_the_stored_measurement(page, name, table):
     assert f"-->\n{table(stored(name))}\n<!--" in (ROOT / page).read_text(encoding="utf-8")
 
 
+def test_the_page_tells_how_line_and_extended_spalls_are_told_apart():
+    table = make_crossfitted.conditions(stored("crossfitted"))
+    assert f"-->\n{table}\n<!--" in (DOCS / "transfer.md").read_text(encoding="utf-8")
+
+
 def test_scenes_that_do_not_repeat_in_the_longer_record_are_not_said_to():
     assert "; in 5 s all)" in had_repeated(set(stored("reference_scenes")["scenes"]))
     assert "; in 5 s G1, F1)" in had_repeated({"F1", "G1"})

@@ -213,11 +213,14 @@ def test_each_record_is_told_with_its_alarm_its_reason_and_its_glitches():
     table = text.splitlines()
     assert table[0].startswith(
         "corpus,record,recording,bearing_id,truth,rejected,levelled,despiked,shocks_cut,in_mains,in_shaft,bands,"
-        "found_speed_rpm,rule_location,"
+        "found_speed_rpm,rule_location,rule_condition,rule_score,rule_alarm,said_location,said_condition,said_score,"
     )
     # Six digits; three probabilities of 0 are taken as 1e-6, so healthy keeps 0.2 / 1.000003.
-    assert table[1].endswith(",outer,0.800001,0.7")
-    assert ",too short,1,0,0,,,0,,rejected," in table[3]
+    assert table[1].endswith(",outer,line,0.800001,0.7")
+    assert ",too short,1,0,0,,,0,,rejected,,nan,nan,rejected,rejected,nan,nan" in table[3]
+    answers = [prediction.models for prediction in predictions]
+    assert [said["said"].condition for said in answers] == ["line", "healthy", "rejected"]
+    assert all(said["rule"].condition is None and "condition" not in said["rule"].to_dict() for said in answers)
 
 
 def with_unjudged_records():
@@ -508,7 +511,10 @@ def test_doubt_rejects_what_is_less_likely_than_it_by_however_little():
 )
 def test_an_answer_stands_beside_the_probability_and_the_alarm_that_made_it(location, score, message):
     where = {"none": 1.0 - score, "outer": score, "inner": 0.0}
-    answers = {"forest": ModelAnswer(location, score, 0.73, where), "rule": ModelAnswer("inner", 30.0, 9.0)}
+    answers = {
+        "forest": ModelAnswer(location, score, 0.73, location_probability=where),
+        "rule": ModelAnswer("inner", 30.0, 9.0),
+    }
     table = verdict_table(
         [Prediction(0, "a", "b", "unknown", "", 0, 0, 0, "", "", 15, None, answers)], ["forest", "rule"]
     )

@@ -6,13 +6,12 @@ import math
 import re
 import tomllib
 from collections import Counter, defaultdict
-from collections.abc import Iterator
 from itertools import pairwise
 from typing import Any
 
 import pytest
+from drawn_settings import as_written, drawn_settings, stated_values
 
-from datagen.distributions.kinds import NAMES
 from datagen.recipes.recipe import Recipe, load_recipe
 from datagen.recipes.recipe_files import shipped_recipes
 from datagen.scenarios.sampling import draw_scenario
@@ -35,35 +34,11 @@ def taste(recipe: Recipe) -> list[Scenario]:
     return [draw_scenario(recipe, record) for record in range(TASTE)]
 
 
-def as_list(held: Any) -> list[Any]:
-    return held if isinstance(held, list) else [held]
-
-
-def as_written(value: Any) -> str:
-    """A value as the page writes it."""
-    return f"{value:g}" if isinstance(value, float) else str(value).lower() if isinstance(value, bool) else str(value)
-
-
-def drawn_settings(node: Any, path: tuple[str, ...] = ()) -> Iterator[tuple[str, list[Any]]]:
-    """Name and stated values of every drawn setting below `node`."""
-    if isinstance(node, list):
-        for item in node:
-            yield from drawn_settings(item, path)
-    elif isinstance(node, dict) and any(name in node for name in NAMES):
-        yield (
-            ".".join(path),
-            [value for held in node.values() for value in as_list(held)],
-        )
-    elif isinstance(node, dict):
-        for key, value in node.items():
-            yield from drawn_settings(value, path if key == "part" else (*path, key))
-
-
 def test_the_page_gives_every_drawn_setting_its_range_its_reason_and_whether_it_is_sourced() -> None:
     rows = {row[0]: row[1:] for row in re.findall(r"^\| `([\w.]+)` \| (.+?) \| (.+?) \| (\w+) \|$", PAGE, re.MULTILINE)}
     ranges: dict[str, list[Any]] = defaultdict(list)
-    for name, values in drawn_settings(tomllib.loads(FILE.read_text(encoding="utf-8"))):
-        ranges[name] += values
+    for name, drawn in drawn_settings(tomllib.loads(FILE.read_text(encoding="utf-8"))):
+        ranges[name] += stated_values(drawn)
     assert set(rows) == set(ranges)
     for name, values in ranges.items():
         stated, reason, status = rows[name]

@@ -29,7 +29,7 @@ def test_a_page_without_the_marks_or_with_them_twice_is_refused_and_left_alone(t
 def test_every_mark_of_the_pages_names_a_script_that_writes_it():
     marks = [
         found
-        for page in (ROOT / "README.md", *(ROOT / "docs").rglob("*.md"))
+        for page in (ROOT / "README.md", *(ROOT / "docs").rglob("*.md"), *(ROOT / "datasets").rglob("*.md"))
         for found in re.findall(r"<!-- ([^:]+): begin \(written by (\S+)\) -->", page.read_text(encoding="utf-8"))
     ]
     assert len(marks) >= 10

@@ -26,6 +26,7 @@ from numpy.typing import NDArray
 from datagen.corpus_files.index import read_index
 from datagen.corpus_files.manifest import Manifest, read_manifest
 from datagen.corpus_files.open_shards import OpenShards
+from datagen.corpus_files.signal import quick_signal
 from datagen.errors import BadInput
 from datagen.files.places import from_home
 from labels.schema import UNKNOWN
@@ -87,6 +88,9 @@ class Corpus:
         Raises BadInput if the record or the variable is not in the corpus.
         """
         shard, position = self._place(record)
+        quick = quick_signal(self._root / shard, variable, int(record), position)
+        if quick is not None:
+            return quick
         with self._shards.reading(shard) as file:
             _require_at_its_place(file, record, position, shard)
             if not _is_of_records(file, variable):

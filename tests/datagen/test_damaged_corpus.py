@@ -70,6 +70,7 @@ def test_a_shard_that_may_not_be_read_is_named(copy: Path, monkeypatch: pytest.M
     def forbidden(*_: object) -> None:
         raise PermissionError(13, "Permission denied")
 
+    monkeypatch.setattr("h5py.File", forbidden)
     monkeypatch.setattr("netCDF4.Dataset", forbidden)
     with pytest.raises(BadInput, match=r"shard_000000\.nc: this shard cannot be read for lack of permission"):
         Corpus(copy).waveform(0)

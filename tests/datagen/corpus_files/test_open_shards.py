@@ -44,8 +44,9 @@ def waits_while_a_shard_is_read(folder: Path, task: Callable[[], object]) -> boo
 def test_nobody_opens_reads_or_closes_a_shard_while_another_thread_reads_one(tiny_corpus: Path) -> None:
     corpus = Corpus(tiny_corpus)
     before = corpus.waveform(0)
-    assert waits_while_a_shard_is_read(tiny_corpus, lambda: corpus.waveform(0))  # an open file
-    assert waits_while_a_shard_is_read(tiny_corpus, lambda: corpus.signal(0))
+    assert np.array_equal(corpus.signal(0), before[:, 1])
+    assert waits_while_a_shard_is_read(tiny_corpus, lambda: corpus.signal(0))  # an open file
+    assert waits_while_a_shard_is_read(tiny_corpus, lambda: corpus.waveform(0))
     assert waits_while_a_shard_is_read(tiny_corpus, lambda: corpus.axes(0))
     assert waits_while_a_shard_is_read(tiny_corpus, lambda: corpus.dataset(0))
     assert waits_while_a_shard_is_read(tiny_corpus, corpus.close)
@@ -70,8 +71,8 @@ def test_threads_that_share_a_corpus_read_what_one_thread_reads(
 ) -> None:
     monkeypatch.setattr("datagen.corpus_files.open_shards.OPEN_FILES", 1)  # nearly every reading closes a file
     with Corpus(tiny_corpus) as corpus, ThreadPoolExecutor(8) as pool:
-        alone = [corpus.waveform(record) for record in range(14)]
-        together = list(pool.map(corpus.waveform, [*range(14)] * 20))
+        alone = [corpus.signal(record) for record in range(14)]
+        together = list(pool.map(corpus.signal, [*range(14)] * 20))
     assert all(np.array_equal(found, alone[place % 14]) for place, found in enumerate(together))
 
 
@@ -154,7 +155,7 @@ def test_corpora_that_open_read_and_close_the_same_files_in_any_order_do_no_harm
 
 
 def read_text(corpus: Corpus, record: int) -> dict[str, object]:
-    corpus.waveform(record)
+    corpus.signal(record)
     return corpus.scenario(record)
 
 
@@ -211,7 +212,7 @@ def test_a_shard_that_was_made_again_is_opened_again(
     shutil.copytree(tiny_corpus, folder)
     shard = min((folder / "shards").glob("*.nc"))
     with Corpus(folder) as corpus:
-        before = corpus.waveform(0)
+        before = corpus.signal(0)
         with netCDF4.Dataset(tmp_path / "new.nc", "w") as new, netCDF4.Dataset(shard) as old:
             new.createDimension("record", old.dimensions["record"].size)
             new.createDimension("time", 3)
@@ -226,11 +227,11 @@ def test_a_shard_that_was_made_again_is_opened_again(
 def test_a_corpus_closes_its_files_at_the_end_of_its_block_whatever_happens_there(tiny_corpus: Path) -> None:
     corpus = Corpus(tiny_corpus)
     with contextlib.suppress(BadInput), corpus as same:
-        same.waveform(0)
+        same.signal(0)
         assert corpus.open_files
         same.waveform(14)  # there is none
     assert not corpus.open_files
-    assert np.isfinite(corpus.waveform(0)).all()  # and opens them again
+    assert np.isfinite(corpus.signal(0)).all()  # and opens them again
     corpus.close()
 
 

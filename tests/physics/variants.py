@@ -16,6 +16,13 @@ def changed(scene, *, bearing=None, rig=None, operation=None, spall=None, **fiel
     return dataclasses.replace(scene, **{"rig": machine, "operation": run, "spalls": spalls, **fields})
 
 
+def with_rollers(scene):
+    """`scene` with rollers for balls, whose line contacts (exponent 10/9) take the same load at 5 µm of compression."""
+    bearing, exponent = scene.rig.bearing, 10.0 / 9.0
+    stiffness = bearing.load_deflection * 5e-6 ** (bearing.exponent - exponent)
+    return changed(scene, bearing={"exponent": exponent, "load_deflection": stiffness})
+
+
 def slipping_cage(scene, seed, start_angle=0.2, correlation_time=0.03):
     """The cage of `scene` for half a second with 2 % of slip that scatters by 5 %, from `start_angle` (rad) on."""
     knots = draw_slip_knots(np.random.default_rng(seed), 0.05, correlation_time, 0.5)

@@ -12,7 +12,7 @@ from labels.classifier.scores import FEWEST_A_SIDE, exact_interval
 from physics.bearing import RACES
 
 PAGE = Path(__file__).with_name("transfer.md")
-CROSSFITTED = PAGE.with_name("crossfitted.json")
+CROSSFITTED, NOISE_AUC = PAGE.with_name("crossfitted.json"), PAGE.with_name("noise_auc.json")
 FAULTS, RACE, AUC = "faults_balanced_accuracy", "race_accuracy", "detection_auc"
 # Recordings of CWRU whose envelopes disagree with their label (docs/transfer.md), scored apart: of the drive end at
 # 12 kHz, and at 48 kHz.

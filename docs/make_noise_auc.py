@@ -93,11 +93,9 @@ def measure(train: Path, folders: Sequence[Path], draws: int, workers: int) -> d
     training = source_of(benchmark).features(SILENT)
     judges = Judges(train_rule(training), train_models(training, "all"))
     found: dict[str, dict[str, Any]] = {}
-    healthy_recordings = 0
     for level in LEVELS_DB:
         tested = [in_noise(judges, benchmark, records, level, draws) for records in chosen]
         healthy = together([ranked(one, one.truth == "none") for one in tested])
-        healthy_recordings = np.unique(healthy.recording).size
         for one in tested:
             faulty = np.isin(one.truth, RACES)
             if faulty.any():
@@ -105,7 +103,8 @@ def measure(train: Path, folders: Sequence[Path], draws: int, workers: int) -> d
                 write_line(one.chosen.folder, {"noise_db": level, "train": str(train), "areas": of_corpus})
                 found.setdefault(one.chosen.folder.name, {})[f"{level:g}"] = of_corpus
                 print(one.chosen.folder.name, level, of_corpus, flush=True)
-    return {"draws": draws, "healthy": int(healthy_recordings), "corpora": found}
+    count = sum(int((records.labels["location"] == "none").sum()) for records in chosen)
+    return {"draws": draws, "healthy": count, "corpora": found}
 
 
 def table(kept: dict[str, Any]) -> str:

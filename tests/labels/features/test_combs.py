@@ -115,13 +115,13 @@ def test_what_a_bearing_makes_at_another_speed_is_no_comb_where_the_speed_is_in_
     assert combs(excess) == pytest.approx([2.04 * SHAFT], abs=STEP / 10)
 
 
-@pytest.mark.parametrize("part", [3, 5, 8])
-def test_no_comb_holds_every_line_of_a_shaft_whose_speed_is_in_doubt(part):
+# Every fifth part of such a turn is too near to half a turn of the cage (0.204 and 0.199 turns), seven of them are not.
+@pytest.mark.parametrize(("part", "heard"), [(3, 1), (5, 7), (8, 1)])
+def test_no_comb_holds_every_line_of_a_shaft_whose_speed_is_in_doubt(part, heard):
     """Every third, fifth or eighth line is one of a shaft that turns 2 % faster than stated."""
     rate = 1.02 * SHAFT / part
     excess = spectrum(*multiples(rate, 200))
-    [found] = combs(excess)
-    assert found / rate == pytest.approx(round(found / rate), abs=0.01)
+    assert combs(excess) == pytest.approx([heard * rate], abs=STEP / 10)
     turns = 1.02 * SHAFT / np.array(combs(excess, doubt=0.022))  # of the comb in one of the shaft
     assert np.all(np.abs(turns - np.round(turns)) > 0.1)
 

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 DYNAMIC_RANGE_DB = 70.0
 MOST_NAMED_PASSES = 8
+LETTER_WIDTH = 0.0105  # of the width of the close-up, in names of passes
 MOST_BOLD_EVENTS = 12
 LEAST_STIFFNESS_SPAN = 2e-3  # of its value: less is not worth an axis
 
@@ -82,13 +83,15 @@ def draw_passes(axes: Axes, portrait: Portrait) -> None:
     """A bar from entry to exit for each ball pass in the close-up, its deepest point marked, against time in ms."""
     table, (start, stop) = portrait.passes, portrait.window
     shown = np.flatnonzero((table.exit_time > start) & (table.entry_time < stop))
-    lanes = free_lanes(table.entry_time[shown], table.exit_time[shown])
-    for k, lane in zip(shown, lanes, strict=True):
+    names = [f"  {portrait.element_of(int(k))}" if shown.size <= MOST_NAMED_PASSES else "" for k in shown]
+    room = LETTER_WIDTH * (stop - start) * max(map(len, names), default=0)
+    lanes = free_lanes(table.entry_time[shown], table.exit_time[shown] + room)
+    for k, lane, name in zip(shown, lanes, names, strict=True):
         entry, leave = table.entry_time[k] * 1e3, table.exit_time[k] * 1e3
         axes.barh(lane, leave - entry, left=entry, height=0.6, color=ORANGE if table.loaded[k] else PALE, linewidth=0)
         axes.plot(table.deepest_time[k] * 1e3, lane, marker="|", color=INK, markersize=5)
-        if shown.size <= MOST_NAMED_PASSES and leave < stop * 1e3 - 0.07 * (stop - start) * 1e3:
-            axes.text(leave, lane, f"  {portrait.element_of(int(k))}", va="center", ha="left", fontsize=7, color=INK)
+        if name and leave < (stop - room) * 1e3:
+            axes.text(leave, lane, name, va="center", ha="left", fontsize=7, color=INK)
     deepest_lane = max(lanes, default=0)
     axes.set(ylim=(deepest_lane + 0.6, -0.6), yticks=[])
     axes.set_ylabel("entry\nto exit", rotation=0, ha="right", va="center", fontsize=7.5)

@@ -12,7 +12,7 @@ from datagen.drawing.portrait_sources import corpus_portrait, recipe_portrait
 from datagen.drawing.preview import draw_preview, preview_png
 from datagen.drawing.sheet import DPI, HEIGHT, WIDTH, care, draw_sheet, heading, sheet_png, summary
 from datagen.drawing.style import house_style, with_panels
-from datagen.drawing.time_panels import draw_close_up, draw_spectrogram, free_lanes, vertical_modes
+from datagen.drawing.time_panels import draw_close_up, draw_passes, draw_spectrogram, free_lanes, vertical_modes
 from datagen.errors import BadInput
 from datagen.files.plain import plain_json
 from datagen.recipes.recipe import load_recipe
@@ -271,6 +271,20 @@ def test_overlapping_passes_lie_in_different_lanes():
 
 def test_a_pass_that_begins_where_another_ends_follows_in_its_lane():
     assert free_lanes(np.array([0.0, 1.0, 2.0]), np.array([1.0, 2.0, 3.0])) == [0, 0, 0]
+
+
+def test_names_of_balls_do_not_run_under_the_bars_of_the_other_row(recipe_file):
+    recipe_file.write_text(RECIPE.replace('condition = "line"', 'condition = "line"\nrow = "both"'))
+    drawn = recipe_portrait(recipe_file, 0)
+    with house_style():
+        figure, axes = with_panels(figsize=(WIDTH / 2.0, 1.0), gridspec_kw={"left": 0.1, "right": 0.93})
+        axes.set_xlim(*(1e3 * edge for edge in drawn.window))
+        draw_passes(axes, drawn)
+        figure.canvas.draw()
+        names = [text.get_window_extent().translated(0.5, 0.0) for text in axes.texts]
+        bars = [bar.get_window_extent() for bar in axes.patches]
+    assert len(names) >= 4
+    assert not any(name.overlaps(bar) for name in names for bar in bars)
 
 
 def test_the_heading_says_what_is_drawn(portrait):

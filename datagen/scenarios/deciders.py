@@ -27,10 +27,10 @@ RESONATORS = (
     "resonator_mass_kg",
     "resonator_mass",
 )
-# The settings that decide each parameter, the likeliest to be wrong first. A parameter that is not here is decided by
-# the settings whose names begin with its own.
+# The settings that decide each parameter, the likeliest to be wrong first; "table.key" is that key of this table alone.
+# A parameter that is not here is decided by the settings whose names begin with its own.
 DECIDERS: dict[str, tuple[str, ...]] = {
-    "amplitude": ("amplitude_um", "waviness_scale", "decay"),
+    "amplitude": ("amplitude_um", "waviness_scale", "waviness.decay"),
     "amplitudes": ("amplitude_m_s2",),
     "angle": ("separation_deg", "count", *EXTENTS),
     "ball_diameter": (*BALL_DIAMETERS, "balls", "fill", *PITCH_DIAMETERS),
@@ -74,9 +74,15 @@ def deciders(recipe: Recipe, part: int, parameter: str, kind: Combination | None
     said, names = _said(recipe, part, kind), DECIDERS.get(parameter)
     if names is None:
         return [setting for setting in said if _name(setting).startswith(parameter)]
-    return sorted(
-        (setting for setting in said if _name(setting) in names), key=lambda setting: names.index(_name(setting))
-    )
+    ranked = ((rank, setting) for setting in said if (rank := _rank(setting, names)) is not None)
+    return [setting for _, setting in sorted(ranked, key=lambda pair: pair[0])]
+
+
+def _rank(setting: Setting, names: tuple[str, ...]) -> int | None:
+    """The place in `names` of a setting, whether they name its table or not; None if they lack it."""
+    path = [key for key in setting[0] if isinstance(key, str)]
+    called = (path[-1], ".".join(path[-2:]))
+    return next((rank for rank, name in enumerate(names) if name in called), None)
 
 
 def _name(setting: Setting) -> str:

@@ -158,6 +158,14 @@ def test_a_load_follows_from_waviness_only_where_the_shaft_cannot_rest(tmp_path:
     assert message.endswith("(this also follows from part[1].imperfections.waviness[1].amplitude_um = 1.0)")
 
 
+def test_a_wave_too_high_follows_from_the_decay_of_waves_and_not_of_tones(tmp_path: Path) -> None:
+    tones = "[background]\nmains_hum = {amplitude_m_s2 = 1, decay = 3}\n"
+    text = tones + '[[part]]\nname = "one"\nrecords = 1\nmachine.rig = "gearbox"\n' + WAVES + "decay = -4\n"
+    message = words(tmp_path, text, ("amplitude", "amplitude of order 3 = 1.0 m"))
+    assert "waviness[1].amplitude_um = 1.0: " in message
+    assert message.endswith("(this also follows from part[1].imperfections.waviness[1].decay = -4.0)")
+
+
 def test_only_settings_that_hold_for_the_kind_of_spall_that_was_refused_are_told(tmp_path: Path) -> None:
     for condition, other, line in ("line", "extended", 14), ("extended", "line", 16):
         message = words(tmp_path, SPALLS, ("extent", "it is not"), kind=(condition, "outer", "tukey"))
@@ -197,4 +205,4 @@ def test_settings_of_the_whole_recipe_that_hold_for_the_part_are_told(tmp_path: 
 def test_every_setting_that_a_parameter_is_said_to_follow_from_is_a_key_of_recipes() -> None:
     properties = [definition.get("properties", {}) for definition in recipe_schema()["$defs"].values()]
     keys = {key for table in properties for key in table}
-    assert {key for names in DECIDERS.values() for key in names} <= keys
+    assert {key for names in DECIDERS.values() for name in names for key in name.split(".")} <= keys

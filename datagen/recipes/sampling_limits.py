@@ -5,6 +5,7 @@ A recording in the background must fit too: sampled at the rate of the records, 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
@@ -16,6 +17,7 @@ from datagen.recipes.chain_settings import ChainSettings
 from datagen.settings.problems import dotted
 from datagen.settings.table import possible_words
 from datagen.settings.toml_lines import Location, line_of
+from labels.envelope import BAND_SHARE
 from physics.angular_speed import in_hertz
 from physics.catalog import RIGS
 
@@ -74,7 +76,8 @@ def _rigs_too_high(recipe: Recipe, nyquist: float) -> Iterator[Refusal]:
         if frequency >= nyquist:
             limit = f"half the sampling rate of {2.0 * nyquist:.12g} Hz"
             problem = f"its resonance at {frequency:.0f} Hz must lie below {limit}"
-            allowed = f"signal.rate_hz above {2.0 * frequency:.0f}, or a signal.envelope_band_hz of your own"
+            lowest = 2.0 * (1.0 + BAND_SHARE) * frequency  # the envelope's band must lie below half of it
+            allowed = f"signal.rate_hz above about {math.ceil(lowest)}, or a signal.envelope_band_hz of your own"
             yield Refusal(("part", index, "machine", "rig"), problem, rig, allowed)
 
 

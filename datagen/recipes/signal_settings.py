@@ -18,8 +18,9 @@ class Signal(Table):
     """How every record is sampled; drawn once for each virtual machine if not fixed."""
 
     rate_hz: Annotated[Distribution, RATES_HZ]
-    """Sampling rate, Hz. A machine takes a sixteenth of the frequency of its fastest mode or more: about 659 Hz for the
-    gearbox rig, 619 Hz for the fan rig. With the default envelope_band_hz it takes more than twice its resonance."""
+    """Sampling rate, Hz. A machine takes a sixteenth of the frequency of its fastest mode or more: about 660 Hz for the
+    gearbox rig, 619 Hz for the fan rig. With the default envelope_band_hz it takes more than 2.1 times its resonance,
+    so that the band is recorded."""
     duration_s: Annotated[Distribution, Between(0.001, 3600.0)]
     """Length of a record, s, rounded to whole samples."""
     settle_s: Annotated[float, Field(ge=0.0, le=60.0)] = 0.0

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from datagen.scenarios.scenario import Scenario
 from physics.integrators.propagator import fast_periods
 from physics.motion import motion_model
@@ -47,5 +49,5 @@ class TooLowRates:
             return ""
         return (
             f"{self._impossible} of {self._records} records cannot be made at their sampling rate (for example: "
-            f"{self._example}); signal.rate_hz of about {self._needed:.3g} or more would do for all"
+            f"{self._example}); signal.rate_hz of about {math.ceil(self._needed)} or more would do for all"
         )

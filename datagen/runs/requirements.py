@@ -38,7 +38,7 @@ def require_possible_rates(recipe: Recipe, asked: Sequence[Span]) -> None:
             problem = against_rate(scenario)
             if not problem:
                 break
-            allowed = f"about {lowest_rate(scenario):.3g} Hz or more"
+            allowed = f"about {math.ceil(lowest_rate(scenario))} Hz or more"
             problem = f'part "{part.name}": {problem}'
             refusal = refusal or _refusal(recipe, ("signal", "rate_hz"), problem, scenario.rate, allowed)
         else:

@@ -58,10 +58,14 @@ class RecordedLayerSettings(Table):
             return value
         if "path" in value:
             raise refuse("unknown key", "path")
-        path = Path((info.context or {}).get(FOLDER, Path())).absolute() / value["file"]
-        if not path.is_file() and all(name in value for name in LEARNT):
+        if not _are_channels(value.get("channels")):
             return value
-        return _learnt(value, path)
+        path = Path((info.context or {}).get(FOLDER, Path())).absolute() / value["file"]
+        try:
+            found = path.is_file()
+        except OSError as problem:  # such as a name too long
+            raise refuse(f"it cannot be read ({problem.strerror})", "file") from None
+        return value if not found and all(name in value for name in LEARNT) else _learnt(value, path)
 
     @property
     def at_hand(self) -> bool:
@@ -75,13 +79,19 @@ class RecordedLayerSettings(Table):
         return _loaded(self.path, self.sha256, self.channels, self.csv)
 
 
+def _are_channels(value: object) -> bool:
+    """Whether the names of channels, if there are any, are written as they must be."""
+    if value is None:
+        return True
+    return isinstance(value, list | tuple) and len(value) in (1, 2) and all(isinstance(name, str) for name in value)
+
+
 def _learnt(value: dict[str, Any], path: Path) -> dict[str, Any]:
     """The recipe's table with what the file itself says; raises PydanticCustomError."""
-    wishes = value.get("channels")
-    named = isinstance(wishes, list | tuple) and all(isinstance(wish, str) for wish in wishes)
+    channels = value.get("channels")
     try:
         layout = CsvLayout.model_validate(value.get("csv", {}))
-        read = read_background(path, tuple(wishes) if named and wishes else None, layout)
+        read = read_background(path, None if channels is None else tuple(channels), layout)
     except ValidationError:
         return value
     except BadInput as problem:

@@ -15,8 +15,9 @@ RPM = 2.0 * math.pi / RPM_PER_HZ
 
 
 def in_rpm(speed: float) -> float:
-    """Revolutions per minute of a `speed` in rad/s."""
-    return speed * 30.0 / math.pi
+    """Revolutions per minute of a `speed` in rad/s, to twelve digits: as they were stated, the last of which a speed in
+    rad/s does not keep."""
+    return float(f"{speed / RPM:.12g}")
 
 
 def in_hertz(speed: Speed) -> Speed:

@@ -22,6 +22,7 @@ from datagen.scenarios.picker import DEGREES_PER_RADIAN, Picker
 from datagen.scenarios.redraw import MOST_ATTEMPTS, given_up
 from datagen.scenarios.refused import Redraw
 from datagen.scenarios.scenario import Scenario, Seeds
+from physics.angular_speed import in_rpm
 from physics.bearing import Bearing
 from physics.cage import CagePath, draw_slip_knots
 from physics.checks import InvalidParameter, require_between
@@ -108,8 +109,7 @@ def _spalls(draw: Draw, machine: Machine, place: Place, load: float) -> tuple[Sp
 def _draw_operation(settings: OperationSettings, rig: Rig, pick: Picker) -> Operation:
     speed = _absolute_or_relative(settings.speed_rpm, RPM_PER_RAD_S, settings.speed_of_rated, rig.rated_speed, pick)
     load = _absolute_or_relative(settings.load_n, 1.0, settings.load_of_rated, rig.rated_load, pick)
-    rpm = float(f"{speed * RPM_PER_RAD_S:.12g}")  # as a recipe writes it, which may be the last that is allowed
-    require_between("shaft_speed", rpm, SLOWEST_RPM, FASTEST_RPM, "rpm", "the shaft speed")
+    require_between("shaft_speed", in_rpm(speed), SLOWEST_RPM, FASTEST_RPM, "rpm", "the shaft speed")
     unbalance = _draw_unbalance(settings, rig, speed, pick)
     unbalance_phase = pick.number(settings.unbalance_phase_deg)
     fluctuation, fluctuation_phase = pick.number(settings.load_fluctuation), pick.number(settings.fluctuation_phase_deg)

@@ -85,11 +85,23 @@ def test_a_recipes_scene_gives_the_clean_acceleration_of_its_record(names, tmp_p
     assert np.sqrt(np.mean(difference**2)) < 3e-3 * np.sqrt(np.mean(stored.astype(float) ** 2))
 
 
+def test_a_recipe_under_another_name_has_the_same_machines(tmp_path, tiny_recipe, monkeypatch):
+    for folder, name in (("quickstart-corpus", "tiny"), ("second-corpus", "another")):
+        (tmp_path / "recipe.toml").write_text(tiny_recipe.read_text().replace('name = "tiny"', f'name = "{name}"', 1))
+        assert generate(load_recipe(tmp_path), tmp_path / folder, limit=4, engine=Engine(workers=1)).complete
+    monkeypatch.chdir(tmp_path)
+    found = {}
+    exec(BLOCKS[-1], found)
+    labels = found["labels"]
+    assert labels["bearing_id"].nunique() == 4
+    assert labels["machine"].nunique() == 2
+
+
 def test_machines_of_two_seeds_are_told_apart(names):
     labels = names["labels"]
     assert len(labels) == 8
     assert labels["bearing_id"].nunique() == 2  # the names repeat: two machines of two records in either corpus
     assert labels["machine"].nunique() == 4
-    assert set(labels["machine"]) == {"7/tiny-00000", "7/tiny-00001", "8/tiny-00000", "8/tiny-00001"}
+    assert set(labels["machine"]) == {"7/00000", "7/00001", "8/00000", "8/00001"}
     assert labels.index.is_unique
     assert set(labels.index.get_level_values("corpus")) == {"quickstart-corpus", "second-corpus"}

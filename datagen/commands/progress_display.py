@@ -57,8 +57,7 @@ class Bar:
         """Move the bar."""
         if self._task is None:
             self._task = self._progress.add_task("records", total=total, rate="")
-            self._progress.advance(self._task, done)
-            self._progress.reset(self._task, completed=done)
+            self._progress.advance(self._task, done)  # of an earlier run: a first step says nothing of the pace
         speed = self._progress.tasks[0].speed
         self._progress.update(self._task, completed=done, rate=f"{speed:.2f} records/s" if speed else "")
 

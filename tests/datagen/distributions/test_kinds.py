@@ -17,6 +17,7 @@ from datagen.distributions.kinds import (
     Balanced,
     Choice,
     DistributionError,
+    LogUniform,
     Normal,
     Uniform,
     distribution_schema,
@@ -58,7 +59,7 @@ def test_a_distribution_written_back_to_toml_reads_as_itself(example: Any) -> No
 )
 def test_the_quantile_is_that_of_scipy(example: dict[str, Any], reference: Any) -> None:
     distribution = parse_distribution(example)
-    for probability in (1e-6, 0.1, 0.25, 0.5, 0.9, 0.999):
+    for probability in (1e-6, 0.1, 0.25, 0.5, 0.9, 0.999, 1.0 - 1e-12):
         found = distribution.quantile(probability)
         assert found == pytest.approx(
             reference.ppf(probability), rel=1e-9
@@ -126,7 +127,7 @@ def test_a_normal_distribution_states_its_bounds_and_its_mean_unless_both_ends_a
 
 
 def test_rounding_takes_no_draw_beyond_the_ends() -> None:
-    for distribution in (Normal(0.0, 2.0, 0.3, 0.7), Normal(0.0, 2.0, -4.0, 4.0)):
+    for distribution in (Normal(0.0, 2.0, 0.3, 0.7), Normal(0.0, 2.0, -4.0, 4.0), LogUniform(0.7, 1.7)):
         ends = distribution.stated()
         drawn = [distribution.quantile(probability) for probability in PROBABILITIES]
         assert min(ends) <= min(drawn) <= max(drawn) <= max(ends)
@@ -146,6 +147,8 @@ def test_rounding_takes_no_draw_beyond_the_ends() -> None:
         ({"normal": [1, -2]}, "standard deviation must be above 0"),
         ({"normal": [1, 0]}, "standard deviation must be above 0"),
         ({"normal": [1, 2], "low": 3, "high": 2}, "low must be below high"),
+        ({"normal": [1, 2], "low": 3, "high": 3}, "low must be below high"),
+        ({"normal": [0, 1], "low": 4.76}, "less than one draw in a million"),  # 0.97 of a million
         ({"normal": [1, 2], "low": 30}, "less than one draw in a million"),
         ({"normal": [1, 2], "lo": 0}, 'did you mean "low"'),
         ({"choice": []}, "at least one value"),
@@ -175,6 +178,11 @@ def test_rounding_takes_no_draw_beyond_the_ends() -> None:
 def test_a_badly_written_distribution_is_refused_with_what_is_wrong(example: Any, message: str) -> None:
     with pytest.raises(DistributionError, match=message):
         parse_distribution(example)
+
+
+def test_a_normal_distribution_may_be_cut_down_to_one_draw_in_a_million() -> None:
+    assert stats.norm.sf(4.75) == pytest.approx(1.017e-6, rel=1e-3)
+    assert parse_distribution({"normal": [0, 1], "low": 4.75}).quantile(0.0) == pytest.approx(4.75)
 
 
 def test_the_schema_of_a_number_names_every_distribution_and_that_of_a_word_only_lists() -> None:

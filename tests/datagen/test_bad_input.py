@@ -240,6 +240,9 @@ def test_the_recipe_without_mistakes_is_made(tmp_path: Path) -> None:
         ("outer_mass_kg = 1e-300", "outer_mass_kg = 1e-300; allowed: a number from 1e-06 to 1e+07"),
         ("film_damping_us = {uniform = [1e-308, 1e308]}", "allowed: a number from 0 to 1e+06"),
         (f"balls = {'9' * 400}", "a whole number in it is too long: 400 digits"),
+        (f"balls = -{'9' * 400}", "a whole number in it is too long: 400 digits"),
+        (f"balls = 1{'0' * 300}", "a whole number in it is too long: 301 digits"),
+        (f"balls = {'9' * 300}", "part[1].machine.balls"),  # as any other number out of range
         (f"balls = {'9' * 5000}", "a whole number in it has too many digits"),
         (f"balls = 0x{'f' * 5000}", "a whole number in it has too many digits"),
         (f"balls = {'[' * 100_000}", "nested too deeply"),

@@ -53,3 +53,7 @@ def test_a_setting_or_its_innermost_table_is_found_on_its_line(
 
 def test_signs_that_other_texts_end_lines_with_end_none() -> None:
     assert line_of("# a\u2028b\u0085c\nseed = 4\n", ("seed",)) == 2
+
+
+def test_what_looks_like_a_setting_in_a_long_text_of_either_kind_is_none() -> None:
+    assert line_of("summary = '''\nseed = 3\n'''\nseed = 4\n", ("seed",)) == 4

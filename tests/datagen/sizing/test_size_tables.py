@@ -81,6 +81,22 @@ def test_figures_say_whether_they_are_met_and_those_without_records_are_left_out
     assert reach["events within 100 us: F1"] == "0.615 to 0.615"  # all records are alike
 
 
+def test_an_interval_that_is_not_known_is_left_out(scored: Callable[..., ScoredRecord]) -> None:
+    found = columns(summary_table(summarise([scored()], True)))  # of a single bearing
+    assert set(found["90 % interval"]) == {""}
+
+
+def test_events_where_there_are_none_are_told_without_an_interval(scored: Callable[..., ScoredRecord]) -> None:
+    heard = {"events_in_time": EventScores(0, 3, 0), "events_in_arc": EventScores(0, 0, 0)}
+    records = [scored({"record": k, "bearing_id": f"b{k}"}, **heard) for k in range(3)]
+    found = columns(summary_table(summarise(records, True)))
+    rows = zip(found["value"], found["90 % interval"], found["records"], strict=True)
+    row = dict(zip(found["figure"], rows, strict=True))
+    assert row["events within 100 us: F1"] == ("0.000", "", "0 events")
+    assert "events within 0.5 degrees: F1" not in row
+    assert row["lag error, 10 dB"][1] == "0.000 to 0.000"
+
+
 def test_what_a_known_size_changed_is_told_in_its_own_numbers() -> None:
     known = KnownSize(3, "mill", 1.5, 1.25, 1.0091, 7, 0.12, 0.11)
     assert known_size_sentence(known) == (

@@ -164,6 +164,13 @@ def test_numbers_that_contradict_their_source_are_noted_with_both_values(rows):
         # The outer raceway is a sphere, whose radius over the ball's diameter is the conformity.
         ("gearbox", "load_deflection", load_deflection_factor(38.75e-3, 7.12e-3, outer_conformity=45.87 / 14.24)),
         ("fan", "load_deflection", load_deflection_factor(45e-3, 8e-3, outer_conformity=53.0 / 16.0)),
+        # A ball in a sphere, 22.935 mm in radius: Hertz's circle, a³ = 3 F R (1 − ν²) / (2 E). The most loaded of 24
+        # balls carries Stribeck's 4.37 of their mean load.
+        (
+            "gearbox",
+            "contact width",
+            2.0 * (1.5 * 4.37 * 346.0 / 24.0 / (1.0 / 3.56e-3 - 1.0 / 22.935e-3) * 0.91 / 206e9) ** (1.0 / 3.0),
+        ),
     ],
 )
 def test_beside_what_a_source_prints_stands_what_its_geometry_gives(rows, name, quantity, computed):

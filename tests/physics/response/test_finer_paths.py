@@ -84,6 +84,18 @@ def test_paths_are_made_finer_until_what_they_leave_is_allowed():
     assert left[1e-6] == pytest.approx(1.875e-4, rel=1e-3)
 
 
+def test_an_error_that_is_allowed_anyway_needs_no_paths_of_a_fineness_of_16():
+    trace, asked = simulate(reference_scene("F1", 0.02), RATE), []
+
+    def respond(fineness):
+        asked.append(fineness)
+        return replace(trace, acceleration=trace.acceleration * (1.0 + 1e-3 / fineness), error_estimate=1e-2)
+
+    found = respond_on_finer_paths(respond, 1e-6, 1e-3 * rms(trace.acceleration))
+    assert asked == [1, 4]
+    assert found.error_estimate == 1e-2  # the paths leave 7.5e-4, but the steps more
+
+
 def test_a_chaotic_response_is_made_over_the_usual_paths_alone():
     trace, asked = replace(simulate(reference_scene("F1", 0.02), RATE), chaotic=True), []
     assert respond_on_finer_paths(lambda fineness: asked.append(fineness) or trace, 1e-6, 0.0) is trace

@@ -95,6 +95,17 @@ def test_an_error_that_is_allowed_anyway_needs_no_other_response():
     assert asked == [1e-3]
 
 
+def test_a_response_is_made_three_times_at_most():
+    asked = []
+
+    def respond(accuracy):
+        asked.append(accuracy)
+        return trace(0.5, 1e-3), 1.0  # never more exact
+
+    respond_lowered(respond, 1.0, 1e-3, 0.0)
+    assert asked == pytest.approx([1e-3, 0.45e-3, 0.45**2 * 1e-3])
+
+
 def test_nothing_is_asked_again_at_the_smallest_accuracy():
     asked = []
 

@@ -10,11 +10,11 @@ from physics.cage import CagePath
 from physics.imperfections import Imperfections, Waviness
 from physics.integrators.method_table import MODAL
 from physics.request import Accurate
-from physics.response.periodic import REPEATED, balls_a_period, period_of
+from physics.response.periodic import REPEATED, _reading_error, _repeated_changes, balls_a_period, period_of
 from physics.response.resampling import read_at, read_repeated
 from physics.rms import relative_error, rms
 from physics.simulate import simulate
-from physics.trace import Kept
+from physics.trace import ContactChanges, Kept
 
 RATE = 65536.0
 
@@ -167,3 +167,24 @@ def test_what_goes_on_and_on_is_read_from_its_last_period_even_across_its_end():
     known = longer[: beginning + 3 + 2 * period]
     expected = read_at(longer, pace * np.arange(250))
     assert read_repeated(known, period, pace, 250) == pytest.approx(expected, abs=1e-12)  # rounding
+
+
+def test_the_error_of_reading_between_samples_is_told_where_the_signal_has_corners():
+    """Of every other sample each corner is missed by twice as much, at as many of half the places: √8 times the RMS."""
+
+    def corners(place):
+        return np.stack([np.abs(place / 60.7 % 1.0 - 0.5), np.abs((place / 47.3 + 0.3) % 1.0 - 0.5)], axis=1)
+
+    place = np.arange(20_000.0)
+    signal, between = corners(place), place[10:-10] + 0.5
+    missed = rms(read_at(signal, between) - corners(between)) / rms(signal)
+    assert _reading_error(signal) == pytest.approx(0.5 * np.sqrt(8.0) * missed, rel=0.05)
+
+
+def test_changes_of_a_march_beyond_the_record_are_left_out(reference_scene):
+    scene = reference_scene("G0", 0.1)
+    time = np.array([0.01, 0.09, 0.11])
+    numbers = np.ones(3, dtype=np.int16)
+    initial = np.zeros((2, 12), dtype=np.bool_)
+    changes = ContactChanges(time, numbers, numbers, np.ones(3, dtype=np.bool_), initial)
+    assert _repeated_changes(scene, changes, 0.12, 0.1).time == pytest.approx([0.01, 0.09])

@@ -6,11 +6,14 @@ import math
 import pytest
 from variants import changed
 
+from physics.integrators.method_table import METHODS
 from physics.outcome import Outcome, SimulationFailed
 from physics.request import Accurate, FixedSteps, HalvedSteps
 from physics.response.fixed_steps import MOST_HELD_AGAINST, default_substeps, steps_over_spalls
+from physics.response.stability import longest_stable_step, require_stable, stable_substeps
 from physics.rms import relative_error
 from physics.simulate import simulate
+from physics.statics.load_distribution import resting
 
 RATE = 65536.0
 
@@ -112,3 +115,30 @@ def test_a_method_that_misses_the_impulse_of_a_nearly_rectangular_edge_is_refuse
     kept = simulate(scene, RATE, HalvedSteps(2e-2, method=method))
     assert relative_error(kept.acceleration, exact) < kept.error_estimate
     assert relative_error(simulate(scene, RATE, HalvedSteps(1e-4)).acceleration, exact) < 1e-4
+
+
+def test_1024_steps_a_sample_are_made_and_no_more():
+    method = METHODS["runge_kutta4"]
+    require_stable(method, RATE, 1024, 1024)
+    with pytest.raises(SimulationFailed, match=r"takes 1025 steps a sample \(at most 1024 are made\)") as failure:
+        require_stable(method, RATE, 1025, 1025)
+    assert failure.value.outcome is Outcome.UNSTABLE_STEP
+
+
+def test_steps_of_which_a_whole_number_makes_a_sample_are_not_made_shorter_by_rounding(reference_scene):
+    scene, method = reference_scene("G0", 0.02), METHODS["runge_kutta4"]
+    rest = resting(scene)
+    longest = min(
+        longest_stable_step(scene.rig, method, stiffness, damping)
+        for stiffness, damping in zip(rest.stiffness, rest.damping, strict=True)
+    )
+    for steps in range(2, 40):
+        assert stable_substeps(scene, method, rest, 1.0 / (steps * longest)) == steps
+        assert stable_substeps(scene, method, rest, 0.999 / (steps * longest)) == steps + 1
+
+
+def test_away_from_edges_the_estimate_of_a_method_of_second_order_is_its_error(reference_scene):
+    scene = reference_scene("G0", 0.02)
+    exact = simulate(scene, RATE, Accurate(1e-6)).acceleration
+    told = simulate(scene, RATE, FixedSteps(8, method="generalised_alpha", estimate_error=True))
+    assert told.error_estimate == pytest.approx(relative_error(told.acceleration, exact), rel=0.1)

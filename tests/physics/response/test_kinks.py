@@ -54,3 +54,12 @@ def test_both_edges_of_a_ridge_passed_within_a_step_stop_the_steps_of_all_balls(
     apart = np.diff(all_balls[1.01])
     assert apart.min() == pytest.approx(ridge / speed, rel=1e-6)
     assert np.count_nonzero(apart < 1.01 * ridge / speed) == pytest.approx(passes, abs=1)
+
+
+def test_edges_of_one_spall_passed_within_a_step_stop_its_ball_alone(reference_scene):
+    taper = 1e-3  # rad, and 0.9 rad to the other spall
+    spalls = tuple(Spall("outer", 1, angle, 0.1, 1e-5, taper, taper) for angle in (4.0, 5.0))
+    scene = changed(reference_scene("G0", 0.5), spalls=spalls)
+    kinks = known_kinks(scene, assemble(scene), 2.0 * taper / scene.cage.mean_speed)
+    assert kinks.time.size > 0
+    assert not (kinks.ball == ANY_BALL).any()

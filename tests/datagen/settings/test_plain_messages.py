@@ -131,3 +131,9 @@ def test_a_recipe_that_may_not_be_read_says_so(tmp_path: Path, monkeypatch: pyte
     monkeypatch.setattr(Path, "read_text", forbidden)
     with pytest.raises(BadInput, match=r"r\.toml: cannot be read: Permission denied"):
         load_recipe(tmp_path / "r.toml")
+
+
+@pytest.mark.parametrize("name", ["Fs", "sampling_rate", "SR"])
+def test_a_setting_is_known_by_what_others_call_it_in_capitals_too(name: str, tmp_path: Path) -> None:
+    said = refusal(GOOD.replace("rate_hz", name), tmp_path)
+    assert f'signal.{name}: unknown key; did you mean "rate_hz"?' in said

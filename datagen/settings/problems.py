@@ -192,14 +192,19 @@ def _homes(key: str, model: type[BaseModel]) -> list[str]:
     """Where in the file a `key` is known: at its top level, or directly in which tables."""
     homes = []
     if key in model.model_fields:
-        is_table = _table_type(model.model_fields[key].annotation)
-        homes.append("to the top level, " + (f"as [{key}]" if is_table else "above the first table of the file"))
+        annotation = model.model_fields[key].annotation
+        place = f"as {_header(key, annotation)}" if _table_type(annotation) else "above the first table of the file"
+        homes.append(f"to the top level, {place}")
     for name, field in model.model_fields.items():
         table = _table_type(field.annotation)
         if table is not None and key in table.model_fields:
-            is_list = get_origin(field.annotation) is tuple
-            homes.append(f"in [[{name}]]" if is_list else f"in [{name}]")
+            homes.append(f"in {_header(name, field.annotation)}")
     return homes
+
+
+def _header(name: str, annotation: Any) -> str:
+    """How a table of that `name` begins in a file: in double brackets where there may be several."""
+    return f"[[{name}]]" if get_origin(annotation) is tuple else f"[{name}]"
 
 
 def _table_type(annotation: Any) -> type[BaseModel] | None:

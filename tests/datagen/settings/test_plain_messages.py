@@ -137,3 +137,20 @@ def test_a_recipe_that_may_not_be_read_says_so(tmp_path: Path, monkeypatch: pyte
 def test_a_setting_is_known_by_what_others_call_it_in_capitals_too(name: str, tmp_path: Path) -> None:
     said = refusal(GOOD.replace("rate_hz", name), tmp_path)
     assert f'signal.{name}: unknown key; did you mean "rate_hz"?' in said
+
+
+@pytest.mark.parametrize(
+    ("header", "stray"),
+    [
+        ("[[part]]", "[signal.part]"),
+        ("[split]", "[signal.split]"),
+    ],
+)
+def test_a_table_within_another_is_told_its_own_header(header: str, stray: str, tmp_path: Path) -> None:
+    said = refusal(GOOD.replace("[[part]]", f"{stray}\n[[part]]"), tmp_path)
+    assert said.endswith(f"unknown key here; it belongs to the top level, as {header}")
+
+
+def test_a_key_of_a_part_is_told_the_double_brackets_of_parts(tmp_path: Path) -> None:
+    said = refusal(GOOD.replace("[[part]]", "records = 2\n[[part]]"), tmp_path)
+    assert said.endswith("signal.records: unknown key here; it belongs in [[part]]")

@@ -13,6 +13,7 @@ import scipy.io
 
 from datagen.errors import BadInput
 from datagen.formats.arrays import NoVariable, as_numbers, choose, chosen
+from datagen.formats.csv_file import read_csv
 from datagen.formats.csv_layout import CsvLayout
 from datagen.formats.reading import file_format, read_arrays
 
@@ -334,3 +335,24 @@ def test_a_chunk_of_a_wave_file_that_nobody_knows_is_passed_over(tmp_path: Path)
     body = whole[8:data] + struct.pack("<4sI4s", b"calb", 4, b"1.25") + whole[data:]
     path.write_bytes(struct.pack("<4sI", b"RIFF", len(body)) + body)
     assert read_arrays(path, None, PLAIN)["data"].tolist() == (np.arange(400) / 32768.0).tolist()
+
+
+def test_columns_without_a_name_may_be_several(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("t,,,a\n1,2,3,4\n5,6,7,8\n")
+    columns = read_csv(tmp_path / "a.csv", PLAIN)
+    assert columns["a"].tolist() == [4.0, 8.0]
+
+
+@pytest.mark.parametrize("cell", ["", "NaN", "NA", "n/a", "null", "None", "-"])
+def test_what_stands_for_a_missing_sample_is_no_word(cell: str, tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text(f"a,b\n1,2\n3,4\n5,{cell}\n7,8\n")
+    columns = read_csv(tmp_path / "a.csv", PLAIN)
+    assert np.isnan(columns["b"]).tolist() == [False, False, True, False]
+    assert columns.odd == {"b": (4, cell)}
+    assert not columns.worded
+
+
+def test_a_number_with_a_sign_is_not_taken_for_the_decimals_of_the_one_before(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("1,-05\n2,07\n3,-04\n")
+    columns = read_csv(tmp_path / "a.csv", CsvLayout(header=False))
+    assert {name: column.tolist() for name, column in columns.items()} == {"1": [1, 2, 3], "2": [-5, 7, -4]}

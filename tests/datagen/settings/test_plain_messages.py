@@ -55,6 +55,8 @@ def test_a_table_where_a_word_belongs_says_where_its_keys_belong(tmp_path: Path)
     said = refusal(GOOD + "machine.bearing = {balls = -9}\n", tmp_path)
     assert "part[1].machine.bearing = {balls = -9}: balls: this is a separate setting; write it beside this one" in said
     assert "as part[1].machine.balls; allowed: koyo_1205" in said
+    said = refusal(GOOD + "machine.bearing = {balls = 9, colour = 3}\n", tmp_path)
+    assert "the keys balls, colour are no distribution" in said
     said = refusal(GOOD.replace('"gearbox"', "{colour = 3}"), tmp_path)
     assert "the keys colour are no distribution: give one of uniform, " in said
     assert "allowed: gearbox, fan" in said

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csc_array
 from scipy.sparse.linalg import spsolve
+from threadpoolctl import threadpool_limits
 
 from physics.arrays import Array
 
@@ -39,11 +40,12 @@ def foretold(values: Array, bad: NDArray[np.intp]) -> Array:
     stretches = _sound_stretches(whole, bad, order)
     if len(stretches) < STRETCHES_A_WEIGHT * order:
         return straight(values, bad)
-    forwards = _error_weights(stretches)
-    both = [(weights, _of_missing(weights, bad, values.size)) for weights in (forwards, forwards[::-1])]
-    errors = sum(missing.T @ np.correlate(whole, weights, "valid") for weights, missing in both)
-    filled = values.copy()
-    filled[bad] = level + spsolve(sum(missing.T @ missing for _, missing in both), -errors)
+    with threadpool_limits(1):  # the last digits of sums depend on how many threads share them
+        forwards = _error_weights(stretches)
+        both = [(weights, _of_missing(weights, bad, values.size)) for weights in (forwards, forwards[::-1])]
+        errors = sum(missing.T @ np.correlate(whole, weights, "valid") for weights, missing in both)
+        filled = values.copy()
+        filled[bad] = level + spsolve(sum(missing.T @ missing for _, missing in both), -errors)
     return filled
 
 

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from scipy.signal import lfilter
+from threadpoolctl import threadpool_limits
 
 from labels.filling import foretold, straight
 
@@ -63,3 +64,11 @@ def test_weights_are_learned_from_all_of_a_long_signal():
     signal = tone + 1e-3 * np.random.default_rng(7).standard_normal(tone.size)
     bad = np.arange(40_000, 40_006)
     assert foretold(signal, bad)[bad] == pytest.approx(tone[bad], abs=0.05)
+
+
+def test_what_is_foretold_does_not_depend_on_how_many_threads_there_are():
+    signal, found = ringing(100_000, 8), []
+    for threads in (1, 2, 4):
+        with threadpool_limits(threads):
+            found.append(foretold(signal, np.array([5000, 30_000, 30_001])).tobytes())
+    assert found[0] == found[1] == found[2]

@@ -28,7 +28,7 @@ def measure(view: LeadingView) -> dict[str, Array]:
     """Columns (L,) by NAMES: the pair's own score; scores of the best pairs of other lags and how far these lags lie
     from its own, logarithms, zeros where there are none; how far those lie that may mean the same events, on average;
     how far its score lies from that of the first, 0 or below; and its place among the leading, from 0."""
-    best = np.argsort(-view.score)
+    best = np.argsort(-view.score, kind="stable")  # else equal ones come in an order that processors differ in
     against = [_against(view.evidence.pairs, view.score, best, int(pair)) for pair in view.order]
     return {name: np.array([values[name] for values in against]) for name in against[0]} | {
         "behind_first": view.score[view.order] - view.score[view.order[0]],

@@ -304,6 +304,14 @@ def test_lags_within_3_per_cent_are_the_same_and_within_35_may_mean_the_same_eve
     assert found["near_apart"][0] == pytest.approx(0.36 * math.log(1.05) / (0.64 + 0.36))
 
 
+def test_of_rivals_of_equal_scores_those_that_were_paired_first_are_told():
+    # The last pair leads, and every third of the 99 before it, from the second on, comes next.
+    lag, score = 5.0 * 1.04 ** np.arange(100), np.append(np.tile([0.1, 0.5, 0.3], 33), 0.9)
+    found = leading(BLIND, lag, score)
+    apart = [found[f"rival_{k}_apart"][0] for k in (1, 2, 3)]
+    assert apart == pytest.approx(-math.log(1.04) * np.array([98.0, 95.0, 92.0]))
+
+
 @pytest.mark.parametrize(("rank", "middle"), [((0.05, 0.0), 0.0), ((0.0, 0.0), 0.5 * math.log(1.1))])
 def test_ranks_weigh_by_their_squares_and_alike_where_all_are_nothing(rank, middle):
     found = choose(np.array([100.0, 110.0]), np.array(rank))

@@ -26,9 +26,9 @@ SAID = ("location", "condition", "score", "alarm")
 
 @dataclass(frozen=True)
 class ModelAnswer:
-    """What one model says about a record: the location, a score, and the alarm above which a spall is called (0 if the
-    record's lines alone raise it); and, if the model gives probabilities, the condition and those of LOCATIONS and
-    CONDITIONS by name. Numbers are NaN without features."""
+    """What one model says about a record: the location, a score, and the alarm above which a spall is called, but where
+    rows disagree (0 if the record's lines alone raise it); and, if the model gives probabilities, the condition and
+    those of LOCATIONS and CONDITIONS by name. Numbers are NaN without features."""
 
     location: str
     score: float

@@ -31,8 +31,8 @@ class Verdicts:
     """What one model says about R records; all shapes (R,) but that of the probabilities.
 
     `location` is none, outer, inner or rejected; `race` the one it would name if there had to be a spall. `score` rises
-    with suspicion, and a spall is called where it passes the `alarm`. `probability` (R, 5) is that of CLASSES, empty
-    for the rule.
+    with suspicion, and a spall is called where it passes the `alarm`, but for some records whose rows agree on a spall
+    and not on its race or length (see `vote`). `probability` (R, 5) is that of CLASSES, empty for the rule.
 
     It says nothing about a record without features: the race is "rejected", score, alarm and probabilities are NaN.
     """
@@ -144,7 +144,9 @@ class Vote(NamedTuple):
 def vote(model: Model, rows: Rows, records: NDArray[np.int64]) -> Vote:
     """The vote of the rows of each of `records` (R,).
 
-    A record without rows is called healthy, with NaN for probabilities and alarm.
+    A spall is called by the mean of the rows' log odds of a spall over their alarms. The probability of a spall is that
+    of all classes joined, which is lower where rows disagree on race or length, and so may stay below the alarm then. A
+    record without rows is called healthy, with NaN for probabilities and alarm.
     """
     of_rows = model.probability(rows.table) if len(rows) else np.empty((0, len(CLASSES)))
     alarms = logit(model.alarms(rows))

@@ -154,7 +154,8 @@ def verdict_table(predictions: list[Prediction], models: list[str]) -> Table:
     table = Table(
         title="records not scored: their true class is unknown or not one of ours",
         caption="In brackets, if the model gives one: the probability of a spall, and the alarm above which one is "
-        "called (≈: so near that single windows decide; 0: the lines of a race are an alarm by themselves).",
+        "called (≈: the vote of axes or windows that disagree decides otherwise; 0: the lines of a race are an alarm "
+        "by themselves).",
     )
     for name in ("record", "recording", "stated", *models, "why rejected"):
         table.add_column(name, justify="right" if name == "record" else "left")
@@ -173,7 +174,7 @@ def _verdict(said: ModelAnswer) -> str:
 
 def _beside_alarm(said: ModelAnswer) -> str:
     """Whether the probability of a spall is above the alarm (> or ≤), or ≈ if that of the whole record contradicts the
-    call, which the mean margin of its windows decides."""
+    call, which the mean margin of its axes and windows decides."""
     above = said.score > said.alarm
     if above != (said.location != "none"):
         return "≈"

@@ -13,7 +13,7 @@ FIRST_LOOK = 64
 
 
 def is_dead(signal: NDArray[Any]) -> bool:
-    """True if a signal (T,) has NaN or fewer than four different values: no sensor was connected."""
+    """True if a signal (T,) has a sample that is not finite, or fewer than four values: no sensor was connected."""
     if not np.isfinite(signal).all():
         return True
     return np.unique(signal[:FIRST_LOOK]).size < FEWEST_LEVELS and np.unique(signal).size < FEWEST_LEVELS

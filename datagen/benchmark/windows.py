@@ -72,7 +72,7 @@ def _room_for_windows(records: int) -> Iterator[None]:
 
 
 def resampled(signal: Array, rate: float, target: float) -> Array:
-    """The signal (T,) at the `target` rate (Hz, not above `rate`): its Fourier components below half of that."""
+    """The signal (T,) at the `target` rate (Hz, not above `rate`): its Fourier components up to half of that."""
     size = round(signal.size * target / rate)
     if size >= signal.size:
         return signal

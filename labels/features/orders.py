@@ -69,7 +69,10 @@ def velocity_power(analysis: Analysis) -> Array:
 
 
 def _share(analysis: Analysis, power: Array, fundamental: float, harmonics: int, top: float | None = None) -> float:
-    """log10 of the share of `power` below `top` (Hz; half a spacing above the last line) that lies on the lines."""
+    """log10 of the share of `power` below `top` (Hz; half a spacing above the last line) that lies on the lines.
+
+    In a few turns of the shaft its lines run into each other; what lies on two counts twice, and the share may pass 1.
+    """
     step = analysis.record.step
     reach = max(1.5, LINE_ORDERS * analysis.speed.shaft_hz / step)
     last = min(power.size, int(((harmonics + 0.5) * fundamental if top is None else top) / step))

@@ -45,7 +45,8 @@ class Alignment:
 def aligned(energy: Array, rate: float, track: PassTrack) -> Alignment | None:
     """The anchors of the passes of `track` in `energy` (T,); None if fewer than three lie well inside the record.
 
-    Each is moved, within 2 % of the period, to where its energy best matches the mean of all.
+    Each is moved, within 2 % of the period or four samples if these are more, to where its energy best matches the mean
+    of all.
     """
     period = track.period * rate
     search, core = max(FEWEST_SEARCHED, int(SEARCH_SHARE * period)), max(SMALLEST_CORE, int(CORE_SHARE * period))

@@ -21,7 +21,7 @@ CLEANEST = 1e-9
 def log_noise_share(signal: Array) -> float:
     """Logarithm of the share of white noise in the variance of `signal` (T,), were its quietest band noise alone.
 
-    Not below that of CLEANEST, nor in a record shorter than 1024 samples, which counts as clean.
+    That of CLEANEST at least, and of a record shorter than 1024 samples, which counts as clean.
     """
     windows = signal[: signal.size // SEGMENT * SEGMENT].reshape(-1, SEGMENT)
     if windows.size == 0:

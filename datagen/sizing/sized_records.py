@@ -16,7 +16,7 @@ from datagen.corpus_files.open_shards import OpenShards
 from datagen.errors import BadInput
 from datagen.sizing.stated_situation import reason_against, situation_of, speed_found, wrong_speed
 from datagen.sizing.stored_record import StoredRecord, stored_record
-from labels.features.jumps import without_jumps
+from labels.features.mending import mended
 from labels.spall_size.event_truth import EventTruth
 from labels.spall_size.situation import Situation
 from physics.angular_speed import RPM, in_hertz
@@ -102,7 +102,7 @@ def _rows(folder: Path, splits: tuple[str, ...] | None) -> pandas.DataFrame:
 
 def _sized(stored: StoredRecord, labels: dict[str, Any]) -> SizedRecord:
     record = int(labels["record"])
-    acceleration = stored.acceleration if stored.simulated else _level(stored.acceleration, labels)
+    acceleration = stored.acceleration if stored.simulated else _mended(stored.acceleration, labels)
     factor = wrong_speed(record) if stored.simulated else speed_found(labels, acceleration)
     return SizedRecord(
         record=record,
@@ -119,7 +119,7 @@ def _sized(stored: StoredRecord, labels: dict[str, Any]) -> SizedRecord:
     )
 
 
-def _level(acceleration: Array, labels: Mapping[str, Any]) -> Array:
-    """The acceleration (T, axes) of a recording without jumps of its sensors' bias."""
+def _mended(acceleration: Array, labels: Mapping[str, Any]) -> Array:
+    """The acceleration (T, axes) of a recording without jumps and drift of its sensors' bias, glitches and shocks."""
     turns = in_hertz(float(labels["speed_rpm"]) * RPM) * len(acceleration) / float(labels["rate_hz"])
-    return np.column_stack([without_jumps(signal, turns)[0] for signal in acceleration.T])
+    return np.column_stack([mended(signal, turns).signal for signal in acceleration.T])

@@ -19,6 +19,7 @@ from datagen.sizing.corpus_run import score_sizes
 from datagen.sizing.size_request import SizeRequest
 from datagen.sizing.sized_records import sized_records, without_load
 from datagen.sizing.stated_situation import reason_against, speed_found
+from labels.features.mending import Mended
 from labels.spall_size.situation import Situation
 from labels.spall_size.size_estimate import SizeEstimate, SizeOutcome
 from physics import catalog
@@ -149,21 +150,31 @@ def test_a_nominal_speed_is_looked_for_and_another_one_is_not(key: str, expected
     assert record.situation.shaft_speed == pytest.approx(expected * 1200.0 * math.pi / 30.0, rel=2e-3)
 
 
-def test_a_jump_of_the_bias_changes_no_size(tmp_path: Path) -> None:
+@pytest.mark.parametrize("spoilt", ["jump", "drift", "glitch"])
+def test_neither_a_bias_that_moves_nor_a_glitch_changes_a_size(spoilt: str, tmp_path: Path) -> None:
     signal = knocks(20.0)
-    jumped = signal + 30.0 * signal.std() * (np.arange(signal.size) > 9000)
-    clean, level = sized_records(imported(tmp_path, knocks=signal, level=jumped))
-    assert np.abs(level.acceleration - clean.acceleration).max() < 0.1 * signal.std()
+    place, spread = np.arange(signal.size), signal.std()
+    added = {"jump": 30.0 * (place > 9000), "drift": 3e-4 * place, "glitch": 300.0 * (place == 7000)}
+    clean, other = sized_records(imported(tmp_path, knocks=signal, spoilt=signal + spread * added[spoilt]))
+    assert np.abs(other.acceleration - clean.acceleration).max() < 0.2 * spread
 
 
-def test_jumps_are_looked_for_by_the_turns_of_the_recording(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_shock_is_cut_before_a_size_is_told(tmp_path: Path) -> None:
+    signal = knocks(20.0)
+    (one,) = sized_records(
+        imported(tmp_path, shock=signal + 100.0 * signal.std() * (np.abs(np.arange(20000) - 9000) < 60))
+    )
+    assert np.abs(one.acceleration).max() < 3.0 * np.abs(signal).max()
+
+
+def test_recordings_are_mended_by_the_turns_of_the_recording(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     turns = []
 
-    def listening(signal: np.ndarray, made: float) -> tuple[np.ndarray, int]:
+    def listening(signal: np.ndarray, made: float) -> Mended:
         turns.append(made)
-        return signal, 0
+        return Mended(signal)
 
-    monkeypatch.setattr("datagen.sizing.sized_records.without_jumps", listening)
+    monkeypatch.setattr("datagen.sizing.sized_records.mended", listening)
     (one,) = sized_records(imported(tmp_path, noise=noise(2)[:4000]))
     # 0.2 s at 20 turns a second, of each axis
     assert turns == pytest.approx([4.0] * one.acceleration.shape[1])

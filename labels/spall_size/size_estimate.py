@@ -18,6 +18,8 @@ NO_TIMES = np.zeros((0, 2))
 LONGEST_EXTENT = math.pi
 # Ball passes that a record must hold; TOO_SHORT says this in words.
 FEWEST_PASSES = 6
+# Ball passes that are looked at, on the race with the longer time between them; by more no estimate was nearer.
+MOST_PASSES = 4000
 # Samples that a ball pass must last; TOO_COARSE says this in words.
 FEWEST_SAMPLES_A_PASS = 16
 
@@ -41,7 +43,8 @@ class SizeEstimate:
     and `extent_mm` along its race. An interval held the truth in 90 % of the records of the size ladder that were given
     a size: of its training and validation splits, as stored, of machines that the trees judging them had not seen. Of
     other records it says nothing. `candidates` (rad): the extents that give the same timing, `extent`
-    the first, the others whole ball spacings longer. `event_times` (K, 2), s: both events of each pass that was heard.
+    the first, the others whole ball spacings longer. `event_times` (K, 2), s: both events of each pass that was heard
+    among the first MOST_PASSES.
     `trust` is 1 less the relative error to be expected of the lag, between 0 and 1. Without an estimate the numbers are
     NaN and `reason` says why.
     """

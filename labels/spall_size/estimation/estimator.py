@@ -10,6 +10,7 @@ import numpy as np
 from labels.dead_sensor import live_axis
 from labels.spall_size.columns.table import leading_rows
 from labels.spall_size.estimation.calibration import Calibration, Judgement
+from labels.spall_size.estimation.first_passes import first_passes
 from labels.spall_size.estimation.gathering import hear
 from labels.spall_size.estimation.measurement import Measurement, measure
 from labels.spall_size.events.evidence import Evidence
@@ -45,7 +46,8 @@ class SizeEstimator:
     def estimate(self, acceleration: Array, rate: float, situation: Situation) -> SizeEstimate:
         """Size of the spall in `acceleration` (T,) or (T, axes: y last), m/s², sampled at `rate` (Hz).
 
-        The last axis that has a signal is used. If its polarity is not known, the one of the larger trust.
+        The last axis that has a signal is used, and of it the first MOST_PASSES. If its polarity is not known, the one
+        of the larger trust.
         InvalidParameter unless the rate is finite and above 0.
         """
         require_positive("rate", rate, "Hz")
@@ -57,7 +59,8 @@ class SizeEstimator:
             return SizeEstimate(SizeOutcome.TOO_SHORT, method)
         if shortest < FEWEST_SAMPLES_A_PASS:
             return SizeEstimate(SizeOutcome.TOO_COARSE, method)
-        heard = hear(np.asarray(signal, dtype=np.float64), rate, situation.pass_periods())
+        part = np.asarray(first_passes(signal, rate, situation), dtype=np.float64)
+        heard = hear(part, rate, situation.pass_periods())
         if heard is None:
             return SizeEstimate(SizeOutcome.NO_PASSES, method)
         found = map(heard.evidence, (1.0,) if situation.polarity_known else (1.0, -1.0))

@@ -9,6 +9,7 @@ import numpy as np
 from scipy.signal import find_peaks, hilbert
 
 from labels.dead_sensor import live_axis
+from labels.spall_size.estimation.first_passes import first_passes
 from labels.spall_size.situation import Situation
 from labels.spall_size.size_estimate import FEWEST_PASSES, LONGEST_EXTENT, SizeEstimate, SizeOutcome
 from physics.arrays import Array
@@ -61,7 +62,7 @@ class EnvelopeLagRule:
         period, bearing = situation.pass_periods()[race], situation.bearing()
         if signal.size < FEWEST_PASSES * period * rate:
             return SizeEstimate(SizeOutcome.TOO_SHORT, method)
-        lag = envelope_lag(signal, rate, LONGEST_SHARE * period)
+        lag = envelope_lag(first_passes(signal, rate, situation), rate, LONGEST_SHARE * period)
         if math.isnan(lag):
             return SizeEstimate(SizeOutcome.NO_EVENT_PAIR, method)
         arc = lag / period * bearing.spacing

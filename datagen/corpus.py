@@ -95,7 +95,7 @@ class Corpus:
             _require_at_its_place(file, record, position, shard)
             if not _is_of_records(file, variable):
                 known = ", ".join(name for name in file.variables if _is_of_records(file, name))
-                held = f"; dataset({record}) has it among its tables" if variable in file.variables else ""
+                held = f"; dataset({record}) has it" if variable in file.variables else ""
                 raise BadInput(
                     f"record {record} has no such signal{held}",
                     file=shard,

@@ -108,7 +108,8 @@ def sentences(known: dict[str, Any]) -> list[str]:
             f"{percent(scores['recall'])}, F1 {percent(scores['f1'])} of {scores['true']} true ones."
         )
     lines.append(
-        f"- One record of a second took {known['seconds_per_record']['mean']:.2f} s of one processor on average."
+        f"- One record of a second took {known['seconds_per_record']['mean']:.2f} s of one processor on average in "
+        "these runs ([measured apart](pipeline.md))."
     )
     return lines
 

@@ -99,7 +99,7 @@ class Analysis:
             excess = np.where(mains, 1.0, envelopes.excess)
             combs = race_combs(excess, step, self.given.at(speed.shaft_hz), ~mains)
             if not found:
-                combs += foreign_combs(excess, step, self.given, ~mains)
+                combs += foreign_combs(excess, step, self.given, ~mains, self.given.speed_within)
             if not combs:
                 break
             found += combs

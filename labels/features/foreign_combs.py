@@ -37,12 +37,12 @@ SIDEBAND_WIDTH, SIDEBAND_SPREAD = 0.01, 0.001
 FEWEST_BETWEEN = 3
 
 
-def foreign_combs(excess: Array, step: float, known: Kinematics, readable: Flags) -> list[float]:
+def foreign_combs(excess: Array, step: float, known: Kinematics, readable: Flags, doubt: float = 0.0) -> list[float]:
     """Rates (Hz) of impulse trains that no part of the bearing makes, in spectra (B, F) over their floor.
 
-    Components lie `step` (Hz) apart; those from which nothing has been taken out are `readable` (F,). A rate is left
-    out that is as near to one of the bearing's as the speed of `known` may be wrong. A record of so few turns that
-    lines of the shaft run into others has none.
+    Components lie `step` (Hz) apart; those from which nothing has been taken out are `readable` (F,). The speed of
+    `known` may be wrong by the share `doubt`, and a rate so near to one of the bearing's is left out. A record of so
+    few turns that lines of the shaft run into others has none.
     """
     margin = multiple_margin(step, known.shaft_hz)
     if margin > WIDEST_MARGIN * known.shaft_hz:
@@ -51,7 +51,7 @@ def foreign_combs(excess: Array, step: float, known: Kinematics, readable: Flags
     free = readable & ~_of_bearing(lines_in(excess, step), mean.size, known)
     found: list[float] = []
     while len(found) < MOST_COMBS:
-        comb = _strongest(np.where(free, mean, 1.0), free, step, known)
+        comb = _strongest(np.where(free, mean, 1.0), free, step, known, doubt)
         if comb is None:
             break
         found.append(comb)
@@ -82,7 +82,7 @@ def _of_bearing(lines: Lines, count: int, known: Kinematics) -> Flags:
     return explained
 
 
-def _strongest(mean: Array, free: Flags, step: float, known: Kinematics) -> float | None:
+def _strongest(mean: Array, free: Flags, step: float, known: Kinematics, doubt: float) -> float | None:
     """The rate (Hz) of the comb that is least likely to be chance, in the bands' `mean` (F,) where it is `free` (F,) of
     lines of the bearing; None if chance could make one as good."""
     shaft, top = known.shaft_hz, (mean.size - 3) * step
@@ -92,7 +92,7 @@ def _strongest(mean: Array, free: Flags, step: float, known: Kinematics) -> floa
     lines = lines_in(mean[None], step)
     places = min(int(np.ceil((high - low) * LOOKED_AT[-1] / (0.5 * step))) + 1, MOST_PLACES)
     every = np.linspace(low, high, places)
-    rates = every[~made_by_bearing(every / shaft, known, known.speed_within)]
+    rates = every[~made_by_bearing(every / shaft, known, doubt)]
     if rates.size == 0:
         return None
     stands, readable = _standing(lines, free, rates, shaft)
@@ -100,7 +100,7 @@ def _strongest(mean: Array, free: Flags, step: float, known: Kinematics) -> floa
     best = int(chance.argmin())
     if chance[best] > np.log(CHANCE):
         return None
-    rate = _slowest_part(lines, free, float(rates[best]), known)
+    rate = _slowest_part(lines, free, float(rates[best]), known, doubt)
     return _sharpened(lines, rate, float(every[1] - every[0]), shaft)
 
 
@@ -136,15 +136,15 @@ def _log_chance(stands: Flags, readable: Flags, elsewhere: tuple[int, int]) -> A
     return least
 
 
-def _slowest_part(lines: Lines, free: Flags, comb: float, known: Kinematics) -> float:
-    """The rate of which `comb` is a multiple, if the lines between those of `comb` stand out as well and the bearing
-    does not make it at any speed that its shaft may have; else `comb`."""
+def _slowest_part(lines: Lines, free: Flags, comb: float, known: Kinematics, doubt: float) -> float:
+    """The rate of which `comb` is a multiple, if the lines between those of `comb` stand out as well and a shaft whose
+    speed is in `doubt` does not make it; else `comb`."""
     off = np.linspace(-1.0, 1.0, 9) * lines.step / (3.0 * comb)
     for part in range(MOST_PARTS, 1, -1):
         rates = comb / part * (1.0 + off)
         if rates[0] < max(SLOWEST * known.shaft_hz, 4.0 * lines.step):
             continue
-        if made_by_bearing(rates / known.shaft_hz, known, known.speed_within).any():
+        if doubt > 0.0 and made_by_bearing(rates / known.shaft_hz, known, doubt).any():
             continue
         stands, readable = _standing(lines, free, rates, known.shaft_hz)
         between = np.arange(1, LOOKED_AT[-1] + 1) % part != 0

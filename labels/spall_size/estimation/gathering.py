@@ -54,6 +54,8 @@ class Heard:
 def hear(signal: Array, rate: float, pass_period: dict[str, float]) -> Heard | None:
     """What is heard of `signal` (T,) of the race whose `pass_period` (s) shows most clearly; None without passes."""
     white = prewhitened(signal)
+    if white.unit == 0.0:  # so small a signal that its squares are none
+        return None
     energy = white.residual**2
     tracks = {race: track_passes(energy, rate, period) for race, period in pass_period.items()}
     found = {race: track for race, track in tracks.items() if track is not None}

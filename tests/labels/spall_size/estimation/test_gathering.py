@@ -36,6 +36,12 @@ def test_pairs_know_what_their_record_is_like(pulse_train, race):
     assert (found.deviation, found.unit) == pytest.approx((signal.std(), white.unit))
 
 
+def test_nothing_is_heard_of_a_signal_whose_squares_are_below_the_smallest_number(pulse_train):
+    signal = pulse_train(LAG, PERIOD, noise=0.3, duration=0.4).signal
+    assert hear(1e-200 * signal, RATE, {"outer": PERIOD}) is None
+    assert hear(1e-100 * signal, RATE, {"outer": PERIOD}) is not None
+
+
 def test_what_is_told_in_the_unit_of_the_signal_grows_with_it_and_nothing_else_does(pulse_train):
     signal = pulse_train(LAG, PERIOD, noise=0.3, duration=0.4).signal
     one, other = (gather_evidence(scale * signal, RATE, {"outer": PERIOD}) for scale in (1.0, 1e3))

@@ -61,6 +61,18 @@ def test_they_are_those_of_the_records_of_transfer(beginning):
     assert KeptRows().recipe == load_recipe("transfer").short_hash
 
 
+@pytest.mark.slow
+def test_they_are_what_the_features_make_of_many_records_now(tmp_path):
+    """A change of features that few records show would go unseen in the first of them."""
+    folder = tmp_path / "corpus"
+    assert generate(load_recipe("transfer"), folder, limit=160, engine=Engine(workers=2)).complete
+    kept = KeptRows().features(SILENT).rows
+    kept = kept[kept.record < 160]
+    made = read_rows(folder, np.unique(kept.record), training_reading_of(Learning()), 2).rows
+    assert np.array_equal(made.record, kept.record)
+    assert np.isclose(kept.table, made.table, rtol=ALIKE, atol=ALIKE).all(axis=1).mean() > 0.997
+
+
 def test_those_of_the_split_test_are_left_to_score():
     kept = KeptRows()
     assert np.unique(kept.features(SILENT).rows.record).size == RECORDS

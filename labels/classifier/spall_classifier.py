@@ -24,16 +24,16 @@ from physics.bearing import RACES
 FALSE_ALARMS = 0.05
 # Divisions into folds that give held-out probabilities for the alarm; with a single one it would depend on chance.
 DIVISIONS = 3
-STRENGTHS = ("evidence", "spread", "others", "first", "strength", "depth")
+FAMILY_NAMES = ("evidence", "spread", "others", "first", "strength", "depth")
 IMPULSIVENESS = ("kurtosis", "flat_kurtosis", "band_kurtosis", "median_band_kurtosis")
 INNER_LEADS = tuple(f"inner_lead_{name}" for name in LEADS)
 # More of these never makes a spall less likely.
-RISING = (*(f"{race}_{name}" for race in RACES for name in STRENGTHS), *IMPULSIVENESS, *INNER_LEADS)
+RISING = (*(f"{race}_{name}" for race in RACES for name in FAMILY_NAMES), *IMPULSIVENESS, *INNER_LEADS)
 DIFFERENCES = tuple(f"race_{name}" for name in COMPARED)
 SPALL_NAMES = (*RISING, *DIFFERENCES, "turns")
 SIGNS = tuple(1 if name in RISING else -1 if name == "turns" else 0 for name in SPALL_NAMES)
 RACE_NAMES = (
-    *(f"{race}_{name}" for race in RACES for name in (*STRENGTHS, "sidebands", "cage", "slip")),
+    *(f"{race}_{name}" for race in RACES for name in (*FAMILY_NAMES, "sidebands", "cage", "slip")),
     *DIFFERENCES,
 )
 

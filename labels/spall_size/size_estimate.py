@@ -12,7 +12,7 @@ from physics.arrays import Array
 
 # Lower and upper end of an interval; the number that it is around has a field of its own.
 Bounds = tuple[float, float]
-UNKNOWN: Bounds = (math.nan, math.nan)
+UNKNOWN_BOUNDS: Bounds = (math.nan, math.nan)
 NO_TIMES = np.zeros((0, 2))
 # Longest spall that is reported, rad: half the race.
 LONGEST_EXTENT = math.pi
@@ -53,12 +53,12 @@ class SizeEstimate:
     method: str
     race: str = ""
     lag: float = math.nan
-    lag_interval: Bounds = UNKNOWN
+    lag_interval: Bounds = UNKNOWN_BOUNDS
     lag_arc: float = math.nan
     extent: float = math.nan
-    extent_interval: Bounds = UNKNOWN
+    extent_interval: Bounds = UNKNOWN_BOUNDS
     extent_mm: float = math.nan
-    extent_mm_interval: Bounds = UNKNOWN
+    extent_mm_interval: Bounds = UNKNOWN_BOUNDS
     candidates: tuple[float, ...] = ()
     pass_period: float = math.nan
     trust: float = 0.0

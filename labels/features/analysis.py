@@ -139,7 +139,7 @@ class Analysis:
         if self.record.turning is None:
             taken_out |= mains_components(excess.shape[-1], step)
         excess = without_combs(np.where(taken_out, 1.0, excess), step, self._speed_and_combs[1], shaft_hz)
-        for look_for in (foreign_combs, race_combs):  # beside the speed that was found, which is not in doubt
+        for look_for in (foreign_combs, race_combs):  # at the speed that was found, which is not in doubt
             excess = without_combs(excess, step, look_for(excess, step, self.kinematics, ~taken_out), shaft_hz)
         return lines_in(excess, step)
 
